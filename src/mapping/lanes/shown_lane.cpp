@@ -15,6 +15,8 @@ namespace {
 constexpr double kOnBoundary_m = 0.5;  // a boundary that is nearer to a border is the one that it lay on
 constexpr double kMinLength_m = 2.0;
 constexpr double kMinStep_m = 0.05;      // of a border, from one cross-section to the next
+constexpr double kMostTurn = 0.5;        // cosine; where a border turns by more, it has a spike
+constexpr double kMostOffCenter = 0.25;  // share of the width by which a centerline leaves the center
 constexpr double kMinBorder_m = 2.0;     // along the lane
 constexpr std::size_t kMaxBorders = 16;  // as in the topic
 
@@ -57,6 +59,8 @@ class ShownStations {
       LaneStation laid = station;
       if (!laid.found)
         for (const Side side : kSides) lay(side, laid);
+      if (stations_.size() > 1 && is_spike(stations_.rbegin()[1], stations_.back(), laid))
+        stations_.pop_back();
       if (!stations_.empty() && !lies_ahead(stations_.back(), laid)) continue;
       stations_.push_back(laid);
     }
@@ -92,6 +96,17 @@ class ShownStations {
     return std::ranges::all_of(kSides, [&](Side side) {
       const Point step = station.border[index(side)] - before.border[index(side)];
       return step.head<2>().dot(ahead) > kMinStep_m * ahead.norm();
+    });
+  }
+
+  /// Whether a border leaves its course at a cross-section, and returns to it at the next one.
+  static bool is_spike(const LaneStation& before, const LaneStation& station, const LaneStation& after) {
+    return std::ranges::any_of(kSides, [&](Side side) {
+      const auto border = [side](const LaneStation& one) -> Eigen::Vector2d {
+        return one.border[index(side)].head<2>();
+      };
+      const Eigen::Vector2d in = border(station) - border(before), out = border(after) - border(station);
+      return in.dot(out) < kMostTurn * in.norm() * out.norm();
     });
   }
 
@@ -138,7 +153,15 @@ class ShownStations {
     Polyline line = centers_;
     for (std::size_t i = 1; i + 2 < centers_.size(); ++i)
       if (stations_[i].stepped) fade(i, line);
+    for (std::size_t i = 0; i < line.size(); ++i) keep_inside(stations_[i], line[i]);
     return line;
+  }
+
+  /// Steps that follow each other, and those of narrow lanes, would take a centerline out of its lane.
+  static void keep_inside(const LaneStation& station, Point& point) {
+    const Point center = station.center(), off = point - center;
+    const double most_m = kMostOffCenter * station.width_m(), off_m = off.head<2>().norm();
+    if (off_m > most_m) point = center + most_m / off_m * off;
   }
 
   /// Fades the step between a center and the next one.

@@ -1,6 +1,7 @@
 #include "mapping/topology/meeting.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <utility>
@@ -14,6 +15,7 @@ namespace laneloom::topology {
 namespace {
 
 constexpr double kMaxShift_m = 1.2;  // of a lane's end, to the point where lanes meet
+constexpr double kMostAside = 0.45;  // share of a lane's width, from its middle to that point
 constexpr double kMinAhead = 0.5;    // cosine between a lane's end and the way to the next lane
 constexpr double kDrivable = 0.94;   // likewise, of a way that a vehicle drives where the next lane runs on
 constexpr double kGoesOn = 0.87;     // cosine between the directions of two lanes of which one runs on
@@ -21,8 +23,12 @@ constexpr double kGoesOn = 0.87;     // cosine between the directions of two lan
 /// The end of a lane, by the lane's id.
 using LaneEnd = std::pair<ElementId, End>;
 
-Point& end_point(Lane& lane, End end) {
-  return end == End::front ? lane.centerline.front() : lane.centerline.back();
+/// Whether the centerline of a lane may end at a place: it stays in the lane.
+bool may_end_at(const Lane& lane, End end, const Point& place) {
+  const Point &left = end_point(lane.left, end), &right = end_point(lane.right, end);
+  const Eigen::Vector2d across = (left - right).head<2>(), aside = (place - 0.5 * (left + right)).head<2>();
+  return (place - end_point(lane.centerline, end)).norm() <= kMaxShift_m &&
+         std::abs(aside.dot(across)) <= kMostAside * across.squaredNorm();
 }
 
 /// Ends of lanes that meet in one point.
@@ -48,7 +54,7 @@ class Nodes {
     both.ends.insert(both.ends.end(), nodes_[from].ends.begin(), nodes_[from].ends.end());
     for (const LaneEnd& end : both.ends) both.place += place_of(end) / static_cast<double>(both.ends.size());
     const bool near = std::ranges::all_of(
-        both.ends, [&](const LaneEnd& end) { return (place_of(end) - both.place).norm() <= kMaxShift_m; });
+        both.ends, [&](const LaneEnd& end) { return may_end_at(lane(end.first), end.second, both.place); });
     if (!near) return;
     for (const LaneEnd& end : nodes_[from].ends) index_[end] = to;
     nodes_[to] = std::move(both);
@@ -64,7 +70,7 @@ class Nodes {
   }
 
  private:
-  Point place_of(const LaneEnd& end) const { return end_point(lane(end.first), end.second); }
+  Point place_of(const LaneEnd& end) const { return end_point(lane(end.first).centerline, end.second); }
   std::size_t node_of(const LaneEnd& end) {
     const auto [found, is_new] = index_.emplace(end, nodes_.size());
     if (is_new) nodes_.push_back({{end}, place_of(end)});
