@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "mapping/geometry/left_of.hpp"
 #include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/reproducible.hpp"
 #include "mapping/markings/markings.hpp"
@@ -15,6 +16,7 @@ constexpr double kDirection_m = 2.0;    // either way, for a direction without n
 constexpr double kBend_m = 4.0;         // either way, for a curvature without noise
 constexpr double kStyleReach_m = 15.0;  // either way; shorter patches of another style are noise
 constexpr double kAlongside = 0.8;      // cosine between boundaries of one road
+constexpr double kBeyondEnd_m = 0.5;    // half of the usual distance between cross-sections
 constexpr double kConfirmed = 3.0;      // log odds of a boundary whose probability is not estimated
 constexpr double kSurest = 0.999;       // probability of a boundary
 constexpr std::size_t kMostBeside = 12;
@@ -47,15 +49,22 @@ class MetBoundary {
     return mark;
   }
   /// The mark in the cross-section through a point that lies no further away than `reach_m`. Empty: there is
-  /// none.
+  /// none. A boundary that ends just before counts, so that a lane ends at the nearest cross-section rather
+  /// than at the last one before.
   std::optional<Mark> beside(const Point& point, const Eigen::Vector2d& ahead, double reach_m) {
     const Projection foot = along_.project(point, reach_m);
-    if (!foot.inside || foot.distance_m >= reach_m || !geometry::same_level(foot.foot, point))
-      return std::nullopt;
-    const double along = boundary_.course.direction(foot).dot(ahead);
+    if (foot.distance_m >= reach_m || !geometry::same_level(foot.foot, point)) return std::nullopt;
+    const Eigen::Vector2d course = boundary_.course.direction(foot);
+    const double along = course.dot(ahead);
     if (std::abs(along) < kAlongside) return std::nullopt;
     Mark mark = at(foot.arc_m, foot.foot);
     mark.lateral_m = std::copysign(foot.distance_m, along > 0.0 ? -foot.lateral_m : foot.lateral_m);
+    if (!foot.inside) {
+      const Eigen::Vector2d away = (foot.foot - point).head<2>();
+      if (std::abs(away.dot(ahead)) > kBeyondEnd_m) return std::nullopt;
+      mark.lateral_m = cross(ahead, away);
+      mark.point.head<2>() = geometry::beside(point, ahead, mark.lateral_m).head<2>();
+    }
     if (along < 0.0) mark.turn();
     return mark;
   }
