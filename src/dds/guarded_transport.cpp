@@ -35,7 +35,7 @@ class GuardedTransport : public ChainingTransport {
   bool send(SenderResource* sender, SentBytes bytes, std::uint32_t size, LocatorsIterator* begin,
             LocatorsIterator* end, const std::chrono::steady_clock::time_point& timeout) override {
     const bool to_everyone = *begin != *end && IPLocator::isMulticast(**begin);
-    if (to_everyone && door_->holds_announcements()) return true;
+    if (to_everyone && !door_->is_open()) return true;
     return sender->send(bytes, size, begin, end, timeout);
   }
   void receive(TransportReceiverInterface* receiver, const octet* bytes, std::uint32_t size,
@@ -89,6 +89,7 @@ void name_builtin_transports(DomainParticipantQos& qos) {
 }  // namespace
 
 bool Door::lets_in(std::span<const std::uint8_t> datagram) {
+  if (!is_open_) return false;
   if (probe_.is_question(datagram)) return true;
   const std::lock_guard lock(mutex_);
   const auto refusal = guard_.check(datagram, steady_now_ns());

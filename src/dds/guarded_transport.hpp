@@ -19,23 +19,25 @@ namespace laneloom::dds {
 class Door {
  public:
   explicit Door(bool wants_protection) : guard_(wants_protection) {}
-  /// Whether the guard lets it in, or it is a question of the probe: that comes in the clear.
+  /// Whether the door is open, and the guard lets it in, or it is a question of the probe: that comes in the
+  /// clear.
   bool lets_in(std::span<const std::uint8_t> datagram);
   /// datagrams_refused_<reason>, for the reasons that occurred.
   Counters refused() const;
   SelfProbe& probe() { return probe_; }
-  /// Until release_announcements(), the participant is not announced to all. Whoever hears the first
-  /// announcement answers at once, and not again for a while: the participant has to listen by then.
-  void hold_announcements() { holds_announcements_ = true; }
-  void release_announcements() { holds_announcements_ = false; }
-  bool holds_announcements() const { return holds_announcements_; }
+  /// Until open(), the participant is not announced to all, and hears nothing. Whoever hears the first
+  /// announcement answers at once, and not again for a while: the participant has to listen by then. If it
+  /// heard others before, it would begin handshakes with participants that do not know it yet.
+  void shut() { is_open_ = false; }
+  void open() { is_open_ = true; }
+  bool is_open() const { return is_open_; }
 
  private:
   SelfProbe probe_;
   mutable std::mutex mutex_;
   RtpsGuard guard_;
   std::array<std::uint64_t, kDatagramRefusals.size()> refused_{};
-  std::atomic<bool> holds_announcements_ = false;
+  std::atomic<bool> is_open_ = true;
 };
 
 /// Puts a guard in front of each UDP transport, also in front of that which Fast DDS would make by itself.

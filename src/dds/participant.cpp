@@ -43,13 +43,11 @@ Participant::Impl::Impl(const DdsConfig& config, const std::string& name, Presen
   if (presence == Presence::hidden)
     qos.wire_protocol().builtin.discovery_config.discoveryProtocol = DiscoveryProtocol::NONE;
   door_ = guard_transports(qos, governance_protects_messages(config.security_directory));
-  // Fast DDS announces a participant before it listens. A secured participant that is held back sometimes
-  // never matches others.
-  if (config.security_directory.empty()) door_->hold_announcements();
+  door_->shut();  // Fast DDS announces a participant before it listens
   participant_ = DomainParticipantFactory::get_instance()->create_participant(
       static_cast<DomainId_t>(config.domain), qos);
   if (!participant_) refuse("participant in domain " + std::to_string(config.domain));
-  door_->release_announcements();
+  door_->open();
 
   PublisherQos publisher_qos = PUBLISHER_QOS_DEFAULT;
   if (!config.vehicle_id.empty()) publisher_qos.partition().push_back(config.vehicle_id.c_str());

@@ -9,6 +9,7 @@
 #include <set>
 #include <system_error>
 
+#include "eavesdropper.hpp"
 #include "identities.hpp"
 #include "loopback_capture.hpp"
 #include "participants.hpp"
@@ -87,6 +88,17 @@ TEST(Security, NothingIsRefusedWhereThereIsNoStranger) {
   ASSERT_TRUE(status.wait_for([](const ServiceStatus& heard) { return heard.uptime_s > 2.0; }))
       << service.errors();
   EXPECT_FALSE(refused_datagrams(status.samples().back())) << "it asks itself at every tick";
+}
+
+TEST(Security, ParticipantsListenBeforeTheyAreAnnounced) {
+  const Identities identities;
+  // A busy host may stop the test until the announcement has come.
+  EXPECT_TRUE(one_of_three([&] {
+    const auto config = private_config();
+    Eavesdropper eavesdropper(config.domain);
+    const dds::Participant participant(identities.as("pnc", config), "newcomer");
+    return eavesdropper.participants().empty();
+  }));
 }
 
 TEST(Security, WhoHasNoIdentityIsNotHeardAndHearsNothing) {
