@@ -40,7 +40,10 @@ class GuardedTransport : public ChainingTransport {
   }
   void receive(TransportReceiverInterface* receiver, const octet* bytes, std::uint32_t size,
                const Locator_t& local, const Locator_t& remote) override {
-    if (door_->lets_in({bytes, size})) receiver->OnDataReceived(bytes, size, local, remote);
+    if (door_->lets_in({bytes, size})) {
+      const auto turn = door_->turn();
+      receiver->OnDataReceived(bytes, size, local, remote);
+    }
     door_->probe().note_taken(IPLocator::getPhysicalPort(local));
   }
   bool OpenInputChannel(const Locator_t& local, TransportReceiverInterface* receiver,
@@ -87,6 +90,10 @@ void name_builtin_transports(DomainParticipantQos& qos) {
 }
 
 }  // namespace
+
+std::unique_lock<std::mutex> Door::turn() {
+  return wants_protection_ ? std::unique_lock(turn_) : std::unique_lock<std::mutex>();
+}
 
 bool Door::lets_in(std::span<const std::uint8_t> datagram) {
   if (!is_open_) return false;

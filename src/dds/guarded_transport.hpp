@@ -18,10 +18,14 @@ namespace laneloom::dds {
 /// The guard of one participant, for all its sockets, with what it has refused. Thread-safe.
 class Door {
  public:
-  explicit Door(bool wants_protection) : guard_(wants_protection) {}
+  explicit Door(bool wants_protection) : wants_protection_(wants_protection), guard_(wants_protection) {}
   /// Whether the door is open, and the guard lets it in, or it is a question of the probe: that comes in the
   /// clear.
   bool lets_in(std::span<const std::uint8_t> datagram);
+  /// To be held while a datagram is taken that came in. Fast DDS takes those of each port in a thread of its
+  /// own. While it begins a handshake in one of them, it drops the other side's first message in another one,
+  /// and then waits for a second. So, with identities, datagrams are taken one at a time.
+  std::unique_lock<std::mutex> turn();
   /// datagrams_refused_<reason>, for the reasons that occurred.
   Counters refused() const;
   SelfProbe& probe() { return probe_; }
@@ -33,6 +37,8 @@ class Door {
   bool is_open() const { return is_open_; }
 
  private:
+  const bool wants_protection_;
+  std::mutex turn_;
   SelfProbe probe_;
   mutable std::mutex mutex_;
   RtpsGuard guard_;
