@@ -33,13 +33,23 @@ void move(const Eigen::Isometry3d& motion, LocalMap& map) {
   if (map.way) move(motion, *map.way);
 }
 
+constexpr double kApart_m = 2.0;
+constexpr std::size_t kMostPlaces = 30;
+
 }  // namespace
+
+void MapperState::drive_through(const Point& place) {
+  if (!driven.empty() && (place - driven.back()).head<2>().norm() < kApart_m) return;
+  if (driven.size() == kMostPlaces) driven.erase(driven.begin());
+  driven.push_back(place);
+}
 
 void MapperState::follow(const Eigen::Isometry3d& motion, const MapperConfig& config) {
   trails = {};
   driven_paths = {};
   side.forget_course();
   move(motion, map);
+  for (Point& place : driven) move(motion, place);
   lines::LineMapper* const lines = fusion.lines();
   if (lines == nullptr) {
     fusion = Fusion(config);

@@ -74,7 +74,11 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
   Membership published;  ///< membership in the last map
   markings::IdSource ids;
   PoseJumps pose_jumps;
-  LocalMap map;  ///< the last map
+  Polyline driven;  ///< places of the vehicle on its way, the last one last
+  LocalMap map;     ///< the last map
+
+  /// Remembers where the vehicle is.
+  void drive_through(const Point& place);
 
   /// Moves the map with poses that have jumped by `motion`, map frame. Voxels can not be moved: they are
   /// forgotten, with the lanes between them. Trails of other vehicles are forgotten, too.
@@ -83,7 +87,7 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
   template <class Archive>
   void serialize(Archive& archive) {
     archive(frame, fusion, inferred, lane_tracks, ego_track, trails, driven_paths, side, published, ids,
-            pose_jumps, map);
+            pose_jumps, driven, map);
   }
 };
 

@@ -275,12 +275,22 @@ TEST(MapperState, DamagedBytesAreRefused) {
   EXPECT_EQ(drive.mapper.save(), saved) << "the mapper is as it was";
 }
 
+TEST(MapperState, RemembersTheLastMetresOfTheVehiclesWay) {
+  MapperState state({});
+  for (int i = 0; i <= 1000; ++i) state.drive_through({0.1 * i, 0, 0});
+  ASSERT_EQ(state.driven.size(), 30U);
+  EXPECT_NEAR(state.driven.back().x(), 100.0, 2.0);
+  EXPECT_NEAR(state.driven.back().x() - state.driven.front().x(), 58.0, 2.0);
+}
+
 TEST_P(EitherMapper, TheWayMovesWithPosesThatJump) {
   const MapperConfig config{.method = GetParam() == "voxels" ? FusionMethod::voxels : FusionMethod::lines};
   MapperState state(config);
   state.map.way.emplace().stations = {{.point = {1, 0, 0}}, {.point = {2, 0, 0}}};
+  state.drive_through({1, 0, 0});
   const Eigen::Isometry3d motion = test::at(5, 3, 0.5);
   state.follow(motion, config);
+  EXPECT_TRUE(state.driven.front().isApprox(motion * Point(1, 0, 0)));
   for (std::size_t i = 0; i < 2; ++i) {
     const WayStation& station = state.map.way->stations[i];
     EXPECT_NEAR((station.point - motion * Point(1.0 + static_cast<double>(i), 0, 0)).norm(), 0.0, 1e-12);

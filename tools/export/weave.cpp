@@ -67,7 +67,7 @@ LocalMap weave(const SurveyedRoad& surveyed, const MapperConfig& config) {
   boundaries::SectionGraph sections =
       road_sections(std::move(boundaries), scene.T_map_body(), config.section);
   lanes::FoundLanes found =
-      lanes::find_lanes(std::move(sections), scene.box, surveyed.poses, {}, config.lane);
+      lanes::find_lanes(std::move(sections), scene.box, {surveyed.poses, {}}, {}, config.lane);
   lanes::LaneLayout layout = tracks.adopt(inferred.recognise(std::move(found), scene, config.lane, ids), ids);
   topology::RoadGraph road = topology::link_lanes(std::move(layout), config.linkage);
   link(surveyed, config, tracks, road);

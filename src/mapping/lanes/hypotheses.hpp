@@ -26,6 +26,12 @@ struct Hypothesis {
 /// Poses of the vehicle, T_map_body.
 using Poses = std::span<const Eigen::Isometry3d>;
 
+/// Where the vehicle drives, and drove.
+struct Driven {
+  Poses poses{};                 ///< on the road whose lanes are looked for
+  std::span<const Point> way{};  ///< places of the vehicle, some metres apart; map frame
+};
+
 /// The left and the right boundaries of lanes that were known before.
 using KnownBorders = std::set<std::array<ElementId, 2>>;
 

@@ -1,8 +1,10 @@
 #include "mapping/lanes/lane_choice.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -17,24 +19,53 @@ constexpr double kKnown =
     1.0;  // log odds of a place where the last map had a lane between the same boundaries
 constexpr double kWereTwo = 2.0;  // that a place has one wide lane where the last map had two
 constexpr double kWide_m = 5.0;
-constexpr double kLeastDoubted = -2.0;  // with less, a place has no lane, whatever the last map had
-constexpr double kNever = -1e6;         // log odds of a place that another lane has
-constexpr double kMinAdvance = 0.3;     // share of the step; less is the inside of a bend that is too tight
-constexpr double kSpared = 0.75;        // share of a lane's width up to where there must be no other lane
+constexpr double kLeastDoubted = -2.0;    // with less, a place has no lane, whatever the last map had
+constexpr double kNever = -1e6;           // log odds of a place that another lane has
+constexpr double kMinAdvance = 0.3;       // share of the step; less is the inside of a bend that is too tight
+constexpr double kBesideSection_m = 1.0;  // along the road
+constexpr int kLeastPlaces = 8;
+constexpr double kLeastDriven_m = 2.7, kMostDriven_m = 4.0;  // width of a lane that is driven, or beside it
+constexpr double kSpared = 0.75;  // share of a lane's width up to where there must be no other lane
+
+/// A lane beside the line that bounds it on one side.
+struct BesideLine {
+  Side line;
+  double width_m;
+  /// The width of the left one of two lanes, of which this is one.
+  double left_m(double both_m) const { return line == Side::left ? width_m : both_m - width_m; }
+};
+
+/// The distance of a place from one border of a strip, if it lies in the strip.
+std::optional<double> distance_within(const Point& place, Side border, std::span<const CrossSection> strip) {
+  for (const CrossSection& section : strip) {
+    const Point& from = border == Side::left ? section.left : section.right;
+    const Point& to = border == Side::left ? section.right : section.left;
+    const Eigen::Vector2d across = (to - from).head<2>().normalized(), off = (place - from).head<2>();
+    const double along_m = std::abs(cross(across, off)), across_m = across.dot(off);
+    if (along_m < kBesideSection_m && across_m > 0.0 && across_m < section.width_m) return across_m;
+  }
+  return std::nullopt;
+}
 
 /// Takes hypotheses, the surest first, as far as nothing that was taken lies there.
 class Choice {
  public:
-  Choice(const boundaries::SectionGraph& road, const geometry::MapBox& box, Poses driven,
+  Choice(const boundaries::SectionGraph& road, const geometry::MapBox& box, const Driven& driven,
          const KnownBorders& known, const LaneConfig& config)
-      : road_(road), box_(box), known_(known), config_(config), section_of_(road.boundaries.size()) {
+      : road_(road),
+        box_(box),
+        way_(driven.way),
+        known_(known),
+        config_(config),
+        section_of_(road.boundaries.size()) {
     for (std::uint32_t s = 0; s < road.sections.size(); ++s)
       for (const std::size_t i : road.sections[s].boundaries) section_of_[i] = s;
     for (std::size_t i = 0; i < road.boundaries.size(); ++i) {
       cuts_.push_back(cut_along(i, road, config));
-      for (Hypothesis& one : hypotheses(i, cuts_.back(), road, driven, config)) consider(std::move(one));
+      for (Hypothesis& one : hypotheses(i, cuts_.back(), road, driven.poses, config))
+        consider(std::move(one));
       against_.push_back(cuts_.back().has_opposed() ? cuts_.back().reversed() : RoadCuts());
-      for (Hypothesis& one : hypotheses_against(i, against_.back(), road, driven, config))
+      for (Hypothesis& one : hypotheses_against(i, against_.back(), road, driven.poses, config))
         consider(std::move(one));
     }
   }
@@ -236,11 +267,15 @@ class Choice {
     found.on_right.emplace(
         InferredBoundary::Beside{.boundary = one.base, .reversed = one.reversed, .sections = {}});
     Polyline divider;
+    const std::optional<BesideLine> driven = driven_beside_line(one, part);
     for (const CrossSection& section : part) {
+      const double left_m = driven ? driven->left_m(section.width_m) : 0.5 * section.width_m;
       CrossSection in_left = section, in_right = section;
-      in_left.right = in_right.left = section.middle();
-      in_left.width_m = in_right.width_m = 0.5 * section.width_m;
-      divider.push_back(section.middle());
+      in_left.right = in_right.left =
+          section.left + left_m / section.width_m * (section.right - section.left);
+      in_left.width_m = left_m;
+      in_right.width_m = section.width_m - left_m;
+      divider.push_back(in_left.right);
       found.on_left->sections.push_back(in_left);
       found.on_right->sections.push_back(in_right);
     }
@@ -248,6 +283,28 @@ class Choice {
     found.two_way = is_kerb(one, Side::left) && is_kerb(one, Side::right);
     occupy(one, part);
     inferred_.push_back(std::move(found));
+  }
+
+  /// The lane beside a line in which the vehicle drives, where two lanes lie between that line and a kerb.
+  /// The vehicle keeps to the middle of its lane. The rest may be wider: cars park there. Empty: it drove
+  /// elsewhere.
+  std::optional<BesideLine> driven_beside_line(const Hypothesis& one,
+                                               std::span<const CrossSection> part) const {
+    if (is_kerb(one, Side::left) == is_kerb(one, Side::right)) return std::nullopt;
+    const Side line = is_kerb(one, Side::left) ? Side::right : Side::left;
+    double sum_m = 0.0;
+    int places = 0;
+    for (const Point& place : way_) {
+      const auto from_line_m = distance_within(place, line, part);
+      if (!from_line_m) continue;
+      sum_m += *from_line_m;
+      ++places;
+    }
+    const BesideLine lane{line, 2.0 * sum_m / std::max(places, 1)};
+    const double narrowest_m = std::ranges::min(part, {}, &CrossSection::width_m).width_m;
+    const double most_m = std::min(kMostDriven_m, narrowest_m - kLeastDriven_m);
+    const bool is_lane = lane.width_m >= kLeastDriven_m && lane.width_m <= most_m;
+    return places >= kLeastPlaces && is_lane ? std::optional(lane) : std::nullopt;
   }
 
   void add_open(const Hypothesis& one, std::span<const CrossSection> part) {
@@ -263,6 +320,7 @@ class Choice {
 
   const boundaries::SectionGraph& road_;
   const geometry::MapBox& box_;
+  std::span<const Point> way_;  ///< of the vehicle
   const KnownBorders& known_;
   const LaneConfig& config_;
   std::vector<std::uint32_t> section_of_;  ///< by boundary
@@ -277,8 +335,8 @@ class Choice {
 
 }  // namespace
 
-FoundLanes choose_lanes(const boundaries::SectionGraph& road, const geometry::MapBox& box, Poses driven,
-                        const KnownBorders& known, const LaneConfig& config) {
+FoundLanes choose_lanes(const boundaries::SectionGraph& road, const geometry::MapBox& box,
+                        const Driven& driven, const KnownBorders& known, const LaneConfig& config) {
   Choice choice(road, box, driven, known, config);
   choice.choose();
   return std::move(choice).result();

@@ -8,7 +8,7 @@ namespace laneloom::lanes {
 
 /// The lanes of a road: the hypotheses with the greatest sums of log odds that do not overlap.
 /// `boundaries` and `forks` stay empty.
-FoundLanes choose_lanes(const boundaries::SectionGraph& road, const geometry::MapBox& box, Poses driven,
-                        const KnownBorders& known, const LaneConfig& config);
+FoundLanes choose_lanes(const boundaries::SectionGraph& road, const geometry::MapBox& box,
+                        const Driven& driven, const KnownBorders& known, const LaneConfig& config);
 
 }  // namespace laneloom::lanes

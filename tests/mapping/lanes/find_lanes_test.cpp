@@ -42,8 +42,8 @@ std::vector<boundaries::LaneBoundary> road(const std::vector<Across>& strips) {
 FoundLanes find(std::vector<boundaries::LaneBoundary> boundaries, double vehicle_y = kNowhere_m,
                 const LaneConfig& config = {}) {
   const Eigen::Isometry3d vehicle = test::at(10, vehicle_y);
-  return find_lanes(road_sections(std::move(boundaries), test::at(0), {}), test::scene(1).box, {&vehicle, 1},
-                    {}, config);
+  return find_lanes(road_sections(std::move(boundaries), test::at(0), {}), test::scene(1).box,
+                    {{&vehicle, 1}, {}}, {}, config);
 }
 
 std::vector<double> widths(const FoundLanes& found) {
@@ -88,7 +88,7 @@ TEST(FindLanes, AKnownLaneIsDeniedWhereItsBordersTellOfNone) {
   const auto denied = [](const KnownBorders& known) {
     const Eigen::Isometry3d vehicle = test::at(10, kNowhere_m);
     return find_lanes(road_sections(road({edge(2.3), solid(3.5), dashed(3.4), solid(0)}), test::at(0), {}),
-                      test::scene(1).box, {&vehicle, 1}, known, {})
+                      test::scene(1).box, {{&vehicle, 1}, {}}, known, {})
         .denied;
   };
   EXPECT_THAT(denied({}), IsEmpty()) << "a shoulder that never was a lane";
@@ -194,6 +194,32 @@ TEST(FindLanes, OpenLanesLieBesideAnEdgeOnlyWhereTheVehicleDrives) {
 
 TEST(FindLanes, OpenLanesAreNotWhereLanesHaveBothBorders) {
   EXPECT_THAT(find(road({solid(3.5), dashed(3.5), solid(0)}), kLeft_m - 1.7).inferred, IsEmpty());
+}
+
+/// The widths of the lanes between a line and a kerb, from left to right, as the vehicle drove so far beside
+/// the line.
+std::vector<double> divided(const std::vector<Across>& strips, double beside_m, double driven_m) {
+  const Polyline way = straight({0, kLeft_m - beside_m, 0}, {driven_m, kLeft_m - beside_m, 0},
+                                static_cast<int>(driven_m / 2.0) + 1);
+  const Eigen::Isometry3d vehicle = test::at(driven_m, kLeft_m - beside_m);
+  const FoundLanes found = find_lanes(road_sections(road(strips), test::at(0), {}), test::scene(1).box,
+                                      {{&vehicle, 1}, way}, {}, {});
+  for (const InferredBoundary& divider : found.inferred)
+    if (divider.on_left && divider.on_right)
+      return {divider.on_left->sections.front().width_m, divider.on_right->sections.front().width_m};
+  return {};
+}
+
+TEST(FindLanes, TheVehicleTellsHowWideItsLaneBesideALineIs) {
+  const auto are_in_order = [](double left_m, double right_m) {
+    return testing::ElementsAre(testing::DoubleNear(left_m, 1e-6), testing::DoubleNear(right_m, 1e-6));
+  };
+  const std::vector<Across> parking{solid(7.6), edge(0)};
+  EXPECT_THAT(divided(parking, 1.6, 20.0), are_in_order(3.2, 4.4));
+  EXPECT_THAT(divided({edge(7.6), solid(0)}, 6.0, 20.0), are_in_order(4.4, 3.2));
+  EXPECT_THAT(divided(parking, 1.6, 8.0), are_in_order(3.8, 3.8));   // too short a way
+  EXPECT_THAT(divided(parking, 5.4, 20.0), are_in_order(3.8, 3.8));  // beside the kerb, where cars park
+  EXPECT_THAT(divided({edge(7.6), edge(0)}, 1.6, 20.0), are_in_order(3.8, 3.8));  // a street
 }
 
 TEST(FindLanes, DividedRoadsCanBeTurnedOff) {
