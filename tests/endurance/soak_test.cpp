@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "io/work_folder.hpp"
 #include "own_domain.hpp"
@@ -41,17 +42,23 @@ void write_script(const std::string& file, const std::string& script) {
 }
 
 /// With this shell script as the command `laneloom`.
-SoakResult soak_with_command(const std::string& script, int faults) {
+SoakResult soak_with_command(const std::string& script, int faults, SoakSpec spec = healthy()) {
   const io::WorkFolder folder;
-  SoakSpec spec = healthy();
   spec.fleet.command = folder.file("laneloom");
   write_script(spec.fleet.command, script + "\nexec " LANELOOM " \"$@\"");
   return soak_with(spec, faults);
 }
 
 /// After one fault, with this shell command as the planner.
-SoakResult soak_with_planner(const std::string& planner) {
-  return soak_with_command("[ $1 = pnc ] && exec " + planner, 1);
+SoakResult soak_with_planner(const std::string& planner, SoakSpec spec = healthy()) {
+  return soak_with_command("[ $1 = pnc ] && exec " + planner, 1, std::move(spec));
+}
+
+/// A soak that need not wait long for what does not come.
+SoakSpec impatient() {
+  SoakSpec spec = healthy();
+  spec.patience = std::chrono::seconds(10);
+  return spec;
 }
 
 /// One expectation for each thing that makes a soak fail, so that a failed test tells which it was.
@@ -66,13 +73,13 @@ void expect_passed(const SoakResult& result) {
 }
 
 TEST(Soak, FailsWhereThePlannerGetsNoMap) {
-  const auto result = soak_with_planner("sleep 1000");
+  const auto result = soak_with_planner("sleep 1000", impatient());
   EXPECT_THAT(result.failures, Contains(HasSubstr("the planner got no map after: ")));
   EXPECT_FALSE(result.passed());
 }
 
 TEST(Soak, FailsWhereAProcessEndsByItself) {
-  const auto result = soak_with_planner("sh -c 'echo tired; exit 3'");
+  const auto result = soak_with_planner("sh -c 'echo tired; exit 3'", impatient());
   EXPECT_THAT(
       result.failures,
       Contains(HasSubstr("the planner ended with exit code 3 by itself (its last words: tired) after: ")));
