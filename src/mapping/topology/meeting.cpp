@@ -14,11 +14,12 @@
 namespace laneloom::topology {
 namespace {
 
-constexpr double kMaxShift_m = 1.2;  // of a lane's end, to the point where lanes meet
-constexpr double kMostAside = 0.45;  // share of a lane's width, from its middle to that point
-constexpr double kMinAhead = 0.5;    // cosine between a lane's end and the way to the next lane
-constexpr double kDrivable = 0.94;   // likewise, of a way that a vehicle drives where the next lane runs on
-constexpr double kGoesOn = 0.87;     // cosine between the directions of two lanes of which one runs on
+constexpr double kMaxShift_m = 1.2;   // of a lane's end, to the point where lanes meet
+constexpr double kMostAside = 0.45;   // share of a lane's width, from its middle to that point
+constexpr double kTouching_m = 0.01;  // a path that is shorter is none
+constexpr double kMinAhead = 0.5;     // cosine between a lane's end and the way to the next lane
+constexpr double kDrivable = 0.94;    // likewise, of a way that a vehicle drives where the next lane runs on
+constexpr double kGoesOn = 0.87;      // cosine between the directions of two lanes of which one runs on
 
 /// The end of a lane, by the lane's id.
 using LaneEnd = std::pair<ElementId, End>;
@@ -118,11 +119,23 @@ class ArcsAfter {
   std::vector<double> before_m_, after_m_;
 };
 
+/// Where a lane is narrower than at its end, the end's shift could take the centerline out of it.
+void keep_inside(Lane& lane) {
+  if (lane.left.size() != lane.centerline.size() || lane.right.size() != lane.centerline.size()) return;
+  for (std::size_t i = 0; i < lane.centerline.size(); ++i) {
+    const Point across = lane.left[i] - lane.right[i];
+    const Eigen::Vector2d aside = (lane.centerline[i] - 0.5 * (lane.left[i] + lane.right[i])).head<2>();
+    const double share = aside.dot(across.head<2>()) / across.head<2>().squaredNorm();
+    lane.centerline[i] += (std::clamp(share, -kMostAside, kMostAside) - share) * across;
+  }
+}
+
 /// Shifts both ends of a lane's centerline, and takes its stretches along.
 void bend(Lane& lane, const Point& front_shift, const Point& back_shift) {
   if (front_shift.isZero(0.0) && back_shift.isZero(0.0)) return;
   std::vector<double> before_m = arc_lengths(lane.centerline);
   bend(lane.centerline, front_shift, back_shift);
+  keep_inside(lane);
   const ArcsAfter arcs(std::move(before_m), arc_lengths(lane.centerline));
   arcs.take(lane.inferred_ranges);
   for (const Side side : kSides)
@@ -163,7 +176,8 @@ void meet_at_joints(RoadGraph& road) {
   for (Linkage& linkage : road.linkages) {
     if (!linkage.path.empty()) {
       bend(linkage.path, shift_of(linkage.from, End::back), shift_of(linkage.to, End::front));
-    } else if (lanes::gap_between(nodes.lane(linkage.from), nodes.lane(linkage.to)).norm() > 1e-6) {
+      if (length(linkage.path) < kTouching_m) linkage.path.clear();
+    } else if (lanes::gap_between(nodes.lane(linkage.from), nodes.lane(linkage.to)).norm() > kTouching_m) {
       linkage.path = lanes::path_between(nodes.lane(linkage.from), nodes.lane(linkage.to));
     }
   }

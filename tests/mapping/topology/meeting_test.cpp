@@ -86,6 +86,36 @@ TEST(MeetAtJoints, ACenterlineStaysInItsLane) {
   }
 }
 
+TEST(MeetAtJoints, ACenterlineStaysInALaneThatNarrows) {
+  Lane narrows = bordered_lane(2, {0, 0, 0}, {40, 0, 0});
+  narrows.centerline = straight({0, 0, 0}, {40, 0, 0}, 41);
+  narrows.left = narrows.right = {};
+  for (const Point& center : narrows.centerline) {
+    const double half_m = center.x() < 10.0 ? 1.75 : 0.8;
+    narrows.left.push_back(center + half_m * Point::UnitY());
+    narrows.right.push_back(center - half_m * Point::UnitY());
+  }
+  const RoadGraph road =
+      met({bordered_lane(1, {-20, 2.2, 0}, {-0.5, 2.2, 0}), narrows}, {{.from = 1, .to = 2}});
+  const Lane& lane = road.lanes[1];
+  EXPECT_EQ(lane.centerline.front(), road.lanes[0].centerline.back());
+  for (std::size_t i = 0; i < lane.centerline.size(); ++i)
+    EXPECT_LT(lane.centerline[i].y(), lane.left[i].y()) << i;
+}
+
+TEST(MeetAtJoints, APathBetweenLanesThatMeetIsLeftOut) {
+  const RoadGraph road =
+      met({bordered_lane(1, {0, 0, 0}, {20, 0, 0}), bordered_lane(2, {20.5, 0.2, 0}, {40, 2, 0}),
+           bordered_lane(3, {20.4, -0.1, 0}, {40, -2, 0}), bordered_lane(4, {0, 1, 0}, {20, 0.1, 0})},
+          {{.from = 1, .to = 3},
+           {.from = 4, .to = 3},
+           {.from = 4, .to = 2},
+           {.from = 1, .to = 2, .path = {{20, 0, 0}, {20.5, 0.2, 0}}}});
+  ASSERT_EQ(road.linkages.size(), 4U);
+  EXPECT_TRUE(road.lanes[0].centerline.back().isApprox(road.lanes[1].centerline.front()));
+  EXPECT_TRUE(road.linkages[3].path.empty());
+}
+
 TEST(MeetAtJoints, ThreeLanesMeetInOnePoint) {
   const RoadGraph road =
       met({bordered_lane(1, {0, 0, 0}, {20, 0, 0}), bordered_lane(2, {20.5, 0.3, 0}, {40, 2, 0}),
