@@ -177,14 +177,15 @@ std::optional<Way> way_ahead(const LaneGraph& graph, const Eigen::Isometry3d& T_
   const lanes::WayLine line(course->places);
   const double from_m = std::max(0.0, line.foot(T_map_body.translation()));
   Way way{.wish = wish, .step_m = options.step_m, .change = course->change};
-  way.known_m = std::min(options.reach_m, line.length() - from_m);
+  way.known_m = std::min(options.reach_m, line.drivable_to(from_m) - from_m);
   if (way.known_m < std::max(kMinLength_m, options.step_m)) return std::nullopt;
   add_stations(graph, *course, line, from_m, way);
   const auto doubtful = std::ranges::find_if(
       way.stations, [](const WayStation& station) { return station.status != ElementStatus::confirmed; });
   way.confirmed_m = doubtful == way.stations.end()
                         ? way.known_m
-                        : way.step_m * static_cast<double>(doubtful - way.stations.begin());
+                        : std::min(way.known_m,  // which may be less by a rounding
+                                   way.step_m * static_cast<double>(doubtful - way.stations.begin()));
   return way;
 }
 

@@ -16,7 +16,8 @@ constexpr double kMaxTransition_m = 15.0;  // to either side of a joint
 constexpr double kMinWeight = 0.01;
 constexpr double kStraight_per_m = 0.01, kBend_per_m = 0.04;
 constexpr double kBendWeight = 30.0;
-constexpr std::size_t kNear = 4;  // samples that know of a bend before it begins
+constexpr double kTightest_per_m = 0.4;  // cars turn on 5 m or more, and their lanes are hardly tighter
+constexpr std::size_t kNear = 4;         // samples that know of a bend before it begins
 
 /// In a bend noise is less than what smoothing cuts: there the line keeps nearer to the route.
 double weight_of_bend(double curvature_per_m) {
@@ -110,6 +111,12 @@ WayLine::Between WayLine::find(double arc_m) const {
   const auto after = std::upper_bound(arcs_m_.begin() + 1, arcs_m_.end() - 1, arc_m);
   const auto i = static_cast<std::size_t>(after - arcs_m_.begin()) - 1;
   return {i, std::clamp((arc_m - arcs_m_[i]) / (arcs_m_[i + 1] - arcs_m_[i]), 0.0, 1.0)};
+}
+
+double WayLine::drivable_to(double from_m) const {
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (arcs_m_[i] > from_m && std::abs(curvatures_per_m_[i]) > kTightest_per_m) return arcs_m_[i];
+  return length();
 }
 
 double WayLine::foot(const Point& point) const {

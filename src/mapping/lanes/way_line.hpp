@@ -30,6 +30,9 @@ class WayLine {
 
   /// Arc length of the last point.
   double length() const { return arcs_m_.back(); }
+  /// Arc length of the first bend after `from_m` that is tighter than any vehicle drives; length(): there is
+  /// none.
+  double drivable_to(double from_m) const;
   /// Arc length of the foot of a point; beyond an end it is less than 0, or more than the length.
   double foot(const Point& point) const;
 

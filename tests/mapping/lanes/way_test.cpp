@@ -52,6 +52,32 @@ TEST(Way, OnAPassageOfOncomingTrafficDoesNotStart) {
   EXPECT_THAT(ids(way_on(map, west)), ElementsAre(2));
 }
 
+/// A corner that no vehicle can drive is an error of the map.
+TEST(Way, EndsBeforeACornerThatIsTighterThanAnyVehicleDrives) {
+  for (const double radius_m : {1.0, 6.0}) {
+    const Point center(20, radius_m, 0);
+    LocalMap map;
+    map.lanes = {road_lane(1, {0, 0, 0}, {20, 0, 0}),
+                 road_lane(2, {20 + radius_m, radius_m, 0}, {20 + radius_m, 40, 0})};
+    map.linkages = {link(1, 2, Turn::left, test::arc(center, radius_m, -90, 0))};
+    const Way way = way_on(map, test::at(0), WayWish::left);
+    EXPECT_LT(largest_curvature_per_m(way), 0.4);
+    EXPECT_EQ(way.length() < 20.0 + radius_m, radius_m < 2.0) << way.length();
+    EXPECT_GT(way.length(), 15.0);
+  }
+}
+
+TEST(Way, IsConfirmedNoFurtherThanItIsKnown) {
+  LocalMap map;
+  map.lanes = {road_lane(1, {0, 0, 0}, {15, 0, 0})};
+  map.lanes[0].status = ElementStatus::confirmed;
+  map.lanes[0].inferred_ranges = {{14.5, 15.0}};
+  const Way way = way_on(map, test::at(10.0 + 5e-10));
+  ASSERT_EQ(way.stations.size(), 6U);
+  ASSERT_LT(way.known_m, way.length());
+  EXPECT_LE(way.confirmed_m, way.known_m);
+}
+
 TEST(Way, OnAStraightRoadRunsInTheMiddleOfTheLaneFromBesideTheVehicle) {
   LocalMap map;
   map.lanes = {road_lane(1, {0, 0, 0}, {100, 0, 0})};
