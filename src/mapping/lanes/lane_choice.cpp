@@ -1,7 +1,6 @@
 #include "mapping/lanes/lane_choice.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -10,6 +9,7 @@
 
 #include "mapping/geometry/left_of.hpp"
 #include "mapping/geometry/stretches.hpp"
+#include "mapping/lanes/driven_lane.hpp"
 #include "mapping/lanes/hypotheses.hpp"
 
 namespace laneloom::lanes {
@@ -19,33 +19,10 @@ constexpr double kKnown =
     1.0;  // log odds of a place where the last map had a lane between the same boundaries
 constexpr double kWereTwo = 2.0;  // that a place has one wide lane where the last map had two
 constexpr double kWide_m = 5.0;
-constexpr double kLeastDoubted = -2.0;    // with less, a place has no lane, whatever the last map had
-constexpr double kNever = -1e6;           // log odds of a place that another lane has
-constexpr double kMinAdvance = 0.3;       // share of the step; less is the inside of a bend that is too tight
-constexpr double kBesideSection_m = 1.0;  // along the road
-constexpr int kLeastPlaces = 8;
-constexpr double kLeastDriven_m = 2.7, kMostDriven_m = 4.0;  // width of a lane that is driven, or beside it
-constexpr double kSpared = 0.75;  // share of a lane's width up to where there must be no other lane
-
-/// A lane beside the line that bounds it on one side.
-struct BesideLine {
-  Side line;
-  double width_m;
-  /// The width of the left one of two lanes, of which this is one.
-  double left_m(double both_m) const { return line == Side::left ? width_m : both_m - width_m; }
-};
-
-/// The distance of a place from one border of a strip, if it lies in the strip.
-std::optional<double> distance_within(const Point& place, Side border, std::span<const CrossSection> strip) {
-  for (const CrossSection& section : strip) {
-    const Point& from = border == Side::left ? section.left : section.right;
-    const Point& to = border == Side::left ? section.right : section.left;
-    const Eigen::Vector2d across = (to - from).head<2>().normalized(), off = (place - from).head<2>();
-    const double along_m = std::abs(cross(across, off)), across_m = across.dot(off);
-    if (along_m < kBesideSection_m && across_m > 0.0 && across_m < section.width_m) return across_m;
-  }
-  return std::nullopt;
-}
+constexpr double kLeastDoubted = -2.0;  // with less, a place has no lane, whatever the last map had
+constexpr double kNever = -1e6;         // log odds of a place that another lane has
+constexpr double kMinAdvance = 0.3;     // share of the step; less is the inside of a bend that is too tight
+constexpr double kSpared = 0.75;        // share of a lane's width up to where there must be no other lane
 
 /// Takes hypotheses, the surest first, as far as nothing that was taken lies there.
 class Choice {
@@ -267,7 +244,7 @@ class Choice {
     found.on_right.emplace(
         InferredBoundary::Beside{.boundary = one.base, .reversed = one.reversed, .sections = {}});
     Polyline divider;
-    const std::optional<BesideLine> driven = driven_beside_line(one, part);
+    const std::optional<LaneBesideLine> driven = driven_lane(one, part);
     for (const CrossSection& section : part) {
       const double left_m = driven ? driven->left_m(section.width_m) : 0.5 * section.width_m;
       CrossSection in_left = section, in_right = section;
@@ -285,26 +262,11 @@ class Choice {
     inferred_.push_back(std::move(found));
   }
 
-  /// The lane beside a line in which the vehicle drives, where two lanes lie between that line and a kerb.
-  /// The vehicle keeps to the middle of its lane. The rest may be wider: cars park there. Empty: it drove
-  /// elsewhere.
-  std::optional<BesideLine> driven_beside_line(const Hypothesis& one,
-                                               std::span<const CrossSection> part) const {
-    if (is_kerb(one, Side::left) == is_kerb(one, Side::right)) return std::nullopt;
-    const Side line = is_kerb(one, Side::left) ? Side::right : Side::left;
-    double sum_m = 0.0;
-    int places = 0;
-    for (const Point& place : way_) {
-      const auto from_line_m = distance_within(place, line, part);
-      if (!from_line_m) continue;
-      sum_m += *from_line_m;
-      ++places;
-    }
-    const BesideLine lane{line, 2.0 * sum_m / std::max(places, 1)};
-    const double narrowest_m = std::ranges::min(part, {}, &CrossSection::width_m).width_m;
-    const double most_m = std::min(kMostDriven_m, narrowest_m - kLeastDriven_m);
-    const bool is_lane = lane.width_m >= kLeastDriven_m && lane.width_m <= most_m;
-    return places >= kLeastPlaces && is_lane ? std::optional(lane) : std::nullopt;
+  /// The lane beside a line in which the vehicle drives, where a kerb bounds the other side.
+  std::optional<LaneBesideLine> driven_lane(const Hypothesis& one, std::span<const CrossSection> part) const {
+    const bool is_left_kerb = is_kerb(one, Side::left);
+    if (is_left_kerb == is_kerb(one, Side::right)) return std::nullopt;
+    return driven_beside_line(way_, is_left_kerb ? Side::right : Side::left, part);
   }
 
   void add_open(const Hypothesis& one, std::span<const CrossSection> part) {
