@@ -56,6 +56,7 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
       log.done(Stage::road_sections,
                road_sections(std::move(boundaries), scene.T_map_body(), config.section));  // III-D-2
   const Eigen::Isometry3d T_map_body = scene.T_map_body();
+  state.drive_through(T_map_body.translation());
   lanes::LaneLayout found = state.inferred.recognise(
       lanes::find_lanes(std::move(sections), scene.box, {{&T_map_body, 1}, state.driven},
                         state.lane_tracks.known_borders(), config.lane),
@@ -189,7 +190,6 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   }
   const geometry::Scene scene = next_scene(frame, seen_from, config_.range, state);
   state.trails.keep_around(scene.T_map_body().translation());
-  state.drive_through(scene.T_map_body().translation());
   markings::FusedMarkings fused =
       state.fusion.update(std::move(observed), scene, config_, state.ids, log);  // III-B and III-C
   detections_unsure_ = fused.unsure;
