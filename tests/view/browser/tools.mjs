@@ -51,25 +51,27 @@ export async function dropFiles(page, files) {
   await debug.detach();
 }
 
-/** A place on the screen at which a click finds a lane: halfway between its left and its right side. */
+/** A place on the screen at which a click finds a lane: halfway between its left and its right side, where no panel covers it. Whole pixels, as those of a mouse are. */
 const laneOnScreen = (page, pane) => page.evaluate((column) => {
   const {camera, canvas, panes, selection} = window.laneloom, box = canvas.getBoundingClientRect(), left = column * camera.width;
   const places = panes.lists[column].filter(({layer, type}) => layer === 'lanes' && type === 'lane').flatMap(({id, shapes}) => {
     const outline = shapes.find(({area}) => area).area, last = outline.length - 2;
     return Array.from({length: Math.floor(last / 4)}, (_, k) =>
-      ({id, at: camera.project((outline[2 * k] + outline[last - 2 * k]) / 2, (outline[2 * k + 1] + outline[last - 2 * k + 1]) / 2)}));
+      ({id, at: camera.project((outline[2 * k] + outline[last - 2 * k]) / 2, (outline[2 * k + 1] + outline[last - 2 * k + 1]) / 2).map(Math.floor)}));
   });
   const found = places.find(({id, at: [x, y]}) =>
-    x > 0 && y > 0 && x < camera.width && y < box.height && selection.pick([left + x, y])?.id === id);
+    x > 0 && y > 0 && x < camera.width && y < box.height && selection.pick([left + x, y])?.id === id &&
+    document.elementFromPoint(box.x + left + x, box.y + y) === canvas);
   return found ? {id: found.id, x: box.x + left + found.at[0], y: box.y + found.at[1]} : null;
 }, pane);
 
-/** A place on the screen at which a click finds an element of this type, on one of its lines. */
+/** A place on the screen at which a click finds an element of this type, on one of its lines that no panel covers. */
 const lineOnScreen = (page, type) => page.evaluate((wanted) => {
   const {camera, canvas, elements, selection} = window.laneloom, box = canvas.getBoundingClientRect();
   const places = elements.filter((element) => element.type === wanted).flatMap(({key, shapes}) => shapes.flatMap(({line = []}) =>
-    Array.from({length: Math.max(0, line.length / 2 - 1)}, (_, i) => ({key, at: camera.project((line[2 * i] + line[2 * i + 2]) / 2, (line[2 * i + 1] + line[2 * i + 3]) / 2)}))));
-  const found = places.find(({key, at: [x, y]}) => x > 0 && y > 0 && x < camera.width && y < box.height && selection.pick([x, y])?.key === key);
+    Array.from({length: Math.max(0, line.length / 2 - 1)}, (_, i) => ({key, at: camera.project((line[2 * i] + line[2 * i + 2]) / 2, (line[2 * i + 1] + line[2 * i + 3]) / 2).map(Math.floor)}))));
+  const found = places.find(({key, at: [x, y]}) => x > 0 && y > 0 && x < camera.width && y < box.height && selection.pick([x, y])?.key === key &&
+    document.elementFromPoint(box.x + x, box.y + y) === canvas);
   return found ? {key: found.key, x: box.x + found.at[0], y: box.y + found.at[1]} : null;
 }, type);
 
