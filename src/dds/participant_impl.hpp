@@ -31,6 +31,8 @@ class Participant::Impl {
   eprosima::fastdds::dds::Publisher& publisher() { return *publisher_; }
   eprosima::fastdds::dds::Subscriber& subscriber() { return *subscriber_; }
   const std::string& map_frame_id() const { return map_frame_id_; }
+  /// For DDS-Security.
+  bool has_identity() const { return !security_directory_.empty(); }
   Counters refused_datagrams() const { return door_->refused(); }
   SelfCheck ask_itself() { return door_->probe().ask(); }
   /// Throws, as Participant() does, because DDS made no `entity`. DDS itself does not tell why.

@@ -32,8 +32,9 @@ eprosima::fastdds::dds::DataReaderQos reader_qos(
     TopicKind kind, eprosima::fastdds::dds::ReliabilityQosPolicyKind reliability);
 
 /// The reliabilities that the readers of a topic ask for, one reader each. The first one asks for least, so
-/// that it matches every writer.
-std::vector<eprosima::fastdds::dds::ReliabilityQosPolicyKind> reader_reliabilities(TopicKind kind);
+/// that it matches every writer. `has_identity`: of the participant, for DDS-Security.
+std::vector<eprosima::fastdds::dds::ReliabilityQosPolicyKind> reader_reliabilities(TopicKind kind,
+                                                                                   bool has_identity);
 
 /// Announces these bytes with a participant or an endpoint.
 template <class Qos>

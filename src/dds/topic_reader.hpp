@@ -50,7 +50,7 @@ class TopicReader : public eprosima::fastdds::dds::DataReaderListener {
         take_(std::move(take)),
         events_(std::move(events)) {
     auto* topic = participant_->topic(description.name, description.type);
-    for (const auto reliability : reader_reliabilities(kind_)) {
+    for (const auto reliability : reader_reliabilities(kind_, participant_->has_identity())) {
       auto qos = reader_qos(kind_, reliability);
       set_user_data(description.user_data, qos);
       auto* reader = participant_->subscriber().create_datareader(topic, qos, this);
@@ -92,7 +92,8 @@ class TopicReader : public eprosima::fastdds::dds::DataReaderListener {
   /// Whether the events of a reader are reported: only those of the first one, which matches every writer
   /// that another one matches.
   bool tells(const DataReader* reader) const {
-    return reader->get_qos().reliability().kind == reader_reliabilities(kind_).front();
+    return reader->get_qos().reliability().kind ==
+           reader_reliabilities(kind_, participant_->has_identity()).front();
   }
   void end() {
     for (auto* reader : readers_) reader->set_listener(nullptr);

@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -99,6 +102,22 @@ TEST(Security, ParticipantsListenBeforeTheyAreAnnounced) {
     const dds::Participant participant(identities.as("pnc", config), "newcomer");
     return eavesdropper.participants().empty();
   }));
+}
+
+TEST(Security, AServiceThatFollowsOneThatWasKilledHearsDetections) {
+  const auto config = private_config();
+  const Identities identities;
+  const StraightRoad road(identities.as("simulator", config));
+  Listener<PublishedMap> maps(identities.as("pnc", config));
+  auto service = std::make_unique<Service>(identities.as("service", config));
+  ASSERT_TRUE(maps.wait_for(is_good)) << service->errors();
+  EXPECT_TRUE(one_of_three([&] {
+    service->signal(SIGKILL);
+    service->wait();
+    service = std::make_unique<Service>(identities.as("service", config));
+    maps.forget();
+    return maps.wait_for(is_good, std::chrono::seconds(4));
+  })) << service->errors();
 }
 
 TEST(Security, WhoHasNoIdentityIsNotHeardAndHearsNothing) {
