@@ -54,14 +54,13 @@ class MetBoundary {
   std::optional<Mark> beside(const Point& point, const Eigen::Vector2d& ahead, double reach_m) {
     const Projection foot = along_.project(point, reach_m);
     if (foot.distance_m >= reach_m || !geometry::same_level(foot.foot, point)) return std::nullopt;
-    const Eigen::Vector2d course = boundary_.course.direction(foot);
-    const double along = course.dot(ahead);
+    const double along = boundary_.course.direction(foot).dot(ahead);
     if (std::abs(along) < kAlongside) return std::nullopt;
+    const Eigen::Vector2d away = (foot.foot - point).head<2>();
+    if (!foot.inside && std::abs(away.dot(ahead)) > kBeyondEnd_m) return std::nullopt;
     Mark mark = at(foot.arc_m, foot.foot);
     mark.lateral_m = std::copysign(foot.distance_m, along > 0.0 ? -foot.lateral_m : foot.lateral_m);
     if (!foot.inside) {
-      const Eigen::Vector2d away = (foot.foot - point).head<2>();
-      if (std::abs(away.dot(ahead)) > kBeyondEnd_m) return std::nullopt;
       mark.lateral_m = cross(ahead, away);
       mark.point.head<2>() = geometry::beside(point, ahead, mark.lateral_m).head<2>();
     }
