@@ -92,7 +92,7 @@ void name_builtin_transports(DomainParticipantQos& qos) {
 }  // namespace
 
 std::unique_lock<std::mutex> Door::turn() {
-  return wants_protection_ ? std::unique_lock(turn_) : std::unique_lock<std::mutex>();
+  return guard_.wants_protection() ? std::unique_lock(turn_) : std::unique_lock<std::mutex>();
 }
 
 bool Door::lets_in(std::span<const std::uint8_t> datagram) {

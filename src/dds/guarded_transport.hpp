@@ -18,7 +18,7 @@ namespace laneloom::dds {
 /// The guard of one participant, for all its sockets, with what it has refused. Thread-safe.
 class Door {
  public:
-  explicit Door(bool wants_protection) : wants_protection_(wants_protection), guard_(wants_protection) {}
+  explicit Door(bool wants_protection) : guard_(wants_protection) {}
   /// Whether the door is open, and the guard lets it in, or it is a question of the probe: that comes in the
   /// clear.
   bool lets_in(std::span<const std::uint8_t> datagram);
@@ -37,7 +37,6 @@ class Door {
   bool is_open() const { return is_open_; }
 
  private:
-  const bool wants_protection_;
   std::mutex turn_;
   SelfProbe probe_;
   mutable std::mutex mutex_;

@@ -36,6 +36,7 @@ class RtpsGuard {
   /// `wants_protection`: all messages must be protected by DDS-Security, but for those by which keys are
   /// agreed on.
   explicit RtpsGuard(bool wants_protection = false) : wants_protection_(wants_protection) {}
+  bool wants_protection() const { return wants_protection_; }
 
   /// Why a received datagram is refused; nothing: it may pass. `now_ns` is of a steady clock.
   std::optional<DatagramRefusal> check(std::span<const std::uint8_t> datagram, std::int64_t now_ns);
