@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMaxShift_m = 1.2;   // of a lane's end, to the point where lanes meet
 constexpr double kMostAside = 0.45;   // share of a lane's width, from its middle to that point
-constexpr double kTouching_m = 0.01;  // a path that is shorter is none
+constexpr double kTouching_m = 0.01;  // lanes that are nearer need no path
 constexpr double kMinAhead = 0.5;     // cosine between a lane's end and the way to the next lane
 constexpr double kDrivable = 0.94;    // likewise, of a way that a vehicle drives where the next lane runs on
 constexpr double kGoesOn = 0.87;      // cosine between the directions of two lanes of which one runs on
@@ -24,12 +24,16 @@ constexpr double kGoesOn = 0.87;      // cosine between the directions of two la
 /// The end of a lane, by the lane's id.
 using LaneEnd = std::pair<ElementId, End>;
 
+/// How far a place lies on the left of the middle between two borders, as a share of their distance.
+double aside(const Point& left, const Point& right, const Point& place) {
+  const Eigen::Vector2d across = (left - right).head<2>(), off = (place - 0.5 * (left + right)).head<2>();
+  return off.dot(across) / across.squaredNorm();
+}
+
 /// Whether the centerline of a lane may end at a place: it stays in the lane.
 bool may_end_at(const Lane& lane, End end, const Point& place) {
-  const Point &left = end_point(lane.left, end), &right = end_point(lane.right, end);
-  const Eigen::Vector2d across = (left - right).head<2>(), aside = (place - 0.5 * (left + right)).head<2>();
   return (place - end_point(lane.centerline, end)).norm() <= kMaxShift_m &&
-         std::abs(aside.dot(across)) <= kMostAside * across.squaredNorm();
+         std::abs(aside(end_point(lane.left, end), end_point(lane.right, end), place)) <= kMostAside;
 }
 
 /// Ends of lanes that meet in one point.
@@ -119,14 +123,14 @@ class ArcsAfter {
   std::vector<double> before_m_, after_m_;
 };
 
-/// Where a lane is narrower than at its end, the end's shift could take the centerline out of it.
+/// Moves a centerline back into its lane: a lane may be narrower than at the end that was shifted. The sides
+/// of a lane without repeated points have the cross-sections of its centerline.
 void keep_inside(Lane& lane) {
   if (lane.left.size() != lane.centerline.size() || lane.right.size() != lane.centerline.size()) return;
   for (std::size_t i = 0; i < lane.centerline.size(); ++i) {
-    const Point across = lane.left[i] - lane.right[i];
-    const Eigen::Vector2d aside = (lane.centerline[i] - 0.5 * (lane.left[i] + lane.right[i])).head<2>();
-    const double share = aside.dot(across.head<2>()) / across.head<2>().squaredNorm();
-    lane.centerline[i] += (std::clamp(share, -kMostAside, kMostAside) - share) * across;
+    const double share = aside(lane.left[i], lane.right[i], lane.centerline[i]);
+    lane.centerline[i] +=
+        (std::clamp(share, -kMostAside, kMostAside) - share) * (lane.left[i] - lane.right[i]);
   }
 }
 
