@@ -8,6 +8,9 @@
 namespace laneloom {
 namespace {
 
+constexpr double kApart_m = 2.0;  // between places of the vehicle's way
+constexpr std::size_t kMostPlaces = 30;
+
 void move(const Eigen::Isometry3d& motion, Point& point) { point = motion * point; }
 
 void move(const Eigen::Isometry3d& motion, lanes::LaneTrack& track) {
@@ -32,9 +35,6 @@ void move(const Eigen::Isometry3d& motion, LocalMap& map) {
     for (Point& point : lane.centerline) move(motion, point);
   if (map.way) move(motion, *map.way);
 }
-
-constexpr double kApart_m = 2.0;
-constexpr std::size_t kMostPlaces = 30;
 
 }  // namespace
 

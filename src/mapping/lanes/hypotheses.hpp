@@ -26,10 +26,10 @@ struct Hypothesis {
 /// Poses of the vehicle, T_map_body.
 using Poses = std::span<const Eigen::Isometry3d>;
 
-/// Where the vehicle drives, and drove.
+/// The vehicle's poses on the road whose lanes are looked for, and the places that it came through.
 struct Driven {
-  Poses poses{};                 ///< on the road whose lanes are looked for
-  std::span<const Point> way{};  ///< places of the vehicle, some metres apart; map frame
+  Poses poses{};
+  std::span<const Point> way{};  ///< map frame, some metres apart
 };
 
 /// The left and the right boundaries of lanes that were known before.

@@ -157,7 +157,8 @@ class ShownStations {
     return line;
   }
 
-  /// Steps that follow each other, and those of narrow lanes, would take a centerline out of its lane.
+  /// Moves a point of the centerline back into its lane: steps that follow each other, and those of narrow
+  /// lanes, lead out of it.
   static void keep_inside(const LaneStation& station, Point& point) {
     const Point center = station.center(), off = point - center;
     const double most_m = kMostOffCenter * station.width_m(), off_m = off.head<2>().norm();

@@ -184,7 +184,7 @@ std::optional<Way> way_ahead(const LaneGraph& graph, const Eigen::Isometry3d& T_
       way.stations, [](const WayStation& station) { return station.status != ElementStatus::confirmed; });
   way.confirmed_m = doubtful == way.stations.end()
                         ? way.known_m
-                        : std::min(way.known_m,  // which may be less by a rounding
+                        : std::min(way.known_m,  // a rounding may let the last station lie beyond it
                                    way.step_m * static_cast<double>(doubtful - way.stations.begin()));
   return way;
 }
