@@ -115,7 +115,7 @@ void add_stations(const LaneGraph& graph, const lanes::Course& course, const lan
 
 /// The rest of the way before, ahead of the vehicle, as a way without lanes: the map has lost them. Empty:
 /// the vehicle is not on that way, or the way ends here.
-std::optional<Way> rest_of(const Way& before, const Eigen::Isometry3d& T_map_body) {
+std::optional<Way> rest_of(const Way& before, WayWish wish, const Eigen::Isometry3d& T_map_body) {
   const WayPlace place = before.to_way(T_map_body.translation());
   const double from_m = std::floor(std::max(place.s_m, 0.0) / before.step_m) * before.step_m;
   const double rest_m = before.length() - from_m;
@@ -125,7 +125,7 @@ std::optional<Way> rest_of(const Way& before, const Eigen::Isometry3d& T_map_bod
   const Eigen::Vector2d heading = T_map_body.linear().col(0).head<2>();
   if (before.stations[first].direction().dot(heading) < lanes::kMinAlongPath * heading.norm())
     return std::nullopt;
-  Way way{.wish = before.wish, .step_m = before.step_m, .known_m = rest_m};
+  Way way{.wish = wish, .step_m = before.step_m, .known_m = rest_m};
   for (std::size_t i = first; i < before.stations.size(); ++i)
     way.stations.push_back({.point = before.stations[i].point,
                             .heading_rad = before.stations[i].heading_rad,
@@ -162,13 +162,14 @@ Point Way::to_map(const WayPlace& place) const {
 
 std::optional<Way> way_ahead(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body, WayWish wish,
                              const Way* before, const WayOptions& options) {
-  const Way* const kept = before != nullptr && before->is_line() && before->wish == wish ? before : nullptr;
-  auto course = lanes::course_of(graph, T_map_body, {wish, kept}, options.reach_m);
+  const Way* const kept = before != nullptr && before->is_line() ? before : nullptr;
+  const lanes::RouteWish wished{.wish = wish, .before = kept, .turn_m = options.turn_m};
+  auto course = lanes::course_of(graph, T_map_body, wished, options.reach_m);
   if (!course) {
-    auto rest = kept != nullptr ? rest_of(*kept, T_map_body) : std::nullopt;
+    auto rest = kept != nullptr ? rest_of(*kept, wish, T_map_body) : std::nullopt;
     const DirectedLane ahead = lanes::lane_ahead(graph, T_map_body);
     if (ahead.lane != nullptr && (!rest || lanes::find(kept, ahead) != nullptr))
-      course = lanes::course_into(graph, ahead, T_map_body, {wish, kept}, options.reach_m);
+      course = lanes::course_into(graph, ahead, T_map_body, wished, options.reach_m);
     else if (rest)
       course = lanes::course_beyond(graph, *rest, options.reach_m);
     if (!course) return rest;

@@ -147,8 +147,8 @@ std::optional<Course> with_change(const LaneGraph& graph, const LaneChange& chan
 std::optional<Course> course_of(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body,
                                 const RouteWish& wish, double reach_m) {
   const double ahead_m = reach_m + kBeyond_m;
-  const LaneChange begun =
-      wish.before != nullptr && is_change(wish.wish) ? wish.before->change : LaneChange{};
+  const bool goes_on = wish.before != nullptr && wish.before->wish == wish.wish && is_change(wish.wish);
+  const LaneChange begun = goes_on ? wish.before->change : LaneChange{};
   if (begun.from != kNoElement)
     if (auto course = with_change(graph, begun, T_map_body, wish, ahead_m)) return course;
   const auto start = start_of(graph, T_map_body, wish);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 #include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/smooth_step.hpp"
@@ -26,13 +27,15 @@ Turn turn_of(WayWish wish) {
   return wish == WayWish::right ? Turn::right : Turn::straight;
 }
 
+/// How far a passage steps to the left from straight ahead.
+double left_of_ahead_m(const DirectedLane& from, const Passage& passage) {
+  const Polyline line = from.centerline();
+  return cross(end_direction(line, End::back), (begin_point(passage.to) - line.back()).head<2>());
+}
+
 /// Leaves out passages that step aside where another one of the same turn leads on: the branches of forks.
 void leave_out_branches(const DirectedLane& from, std::vector<Passage>& passages) {
-  const Polyline line = from.centerline();
-  const Eigen::Vector2d ahead = end_direction(line, End::back);
-  const auto aside_m = [&](const Passage& passage) {
-    return std::abs(cross(ahead, (begin_point(passage.to) - line.back()).head<2>()));
-  };
+  const auto aside_m = [&](const Passage& passage) { return std::abs(left_of_ahead_m(from, passage)); };
   const auto is_branch = [&](const Passage& one) {
     return std::ranges::any_of(passages, [&](const Passage& other) {
       return other.turn == Turn::straight && !other.to.oncoming() &&
@@ -46,14 +49,41 @@ void leave_out_branches(const DirectedLane& from, std::vector<Passage>& passages
   passages = std::move(kept);
 }
 
+bool is_offered(const std::vector<Passage>& passages, Turn turn) {
+  return std::ranges::find(passages, turn, &Passage::turn) != passages.end();
+}
+
+/// Of passages that lead straight on, leaves those furthest to the side of a turn.
+void keep_branch(const DirectedLane& from, Turn side, std::vector<Passage>& passages) {
+  const auto to_side_m = [&](const Passage& passage) {
+    return (side == Turn::left ? 1.0 : -1.0) * left_of_ahead_m(from, passage);
+  };
+  double furthest_m = -std::numeric_limits<double>::infinity();
+  for (const Passage& passage : passages)
+    if (passage.turn == Turn::straight && !passage.to.oncoming())
+      furthest_m = std::max(furthest_m, to_side_m(passage));
+  std::erase_if(passages, [&](const Passage& passage) {
+    return passage.turn == Turn::straight && to_side_m(passage) < furthest_m - kBranch_m;
+  });
+}
+
+/// Where a lane forks, leaves the passages of the branch that is wished.
+void choose_branch(const DirectedLane& from, Turn wished, const RouteWish& wish,
+                   std::vector<Passage>& passages) {
+  const bool forks_off = wish.turn_m && wished != Turn::straight && !is_offered(passages, wished);
+  if (forks_off)
+    keep_branch(from, wished, passages);
+  else
+    leave_out_branches(from, passages);
+}
+
 /// The passage to take. A passage that was chosen before stays, even where its turn or its probability is
 /// judged anew, unless another one makes the wished turn at last. Null: there is none.
 const Passage* chosen(const std::vector<Passage>& passages, Turn wished, const Way* before) {
-  const bool is_offered = std::ranges::find(passages, wished, &Passage::turn) != passages.end();
   for (const Passage& passage : passages) {
     const WayLane* kept = find(before, passage.to);
     if (kept == nullptr || kept->entry == Turn::unknown) continue;
-    if (!is_offered || passage.turn == wished || kept->entry == wished) return &passage;
+    if (!is_offered(passages, wished) || passage.turn == wished || kept->entry == wished) return &passage;
   }
   return best_passage(passages, wished);
 }
@@ -83,16 +113,23 @@ bool turns_off(const LaneGraph& graph, const DirectedLane& from, const Passage& 
   return !bends && !is_closed_ahead(graph, from);
 }
 
+/// The turn that is wished at the end of a lane, `ahead_m` ahead of the vehicle and behind these passages.
+Turn turn_behind(const std::vector<Passage>& passages, const RouteWish& wish, double ahead_m) {
+  const Turn wished = turn_of(wish.wish);
+  const bool is_there = !wish.turn_m || (wish.turn_m->from_m <= ahead_m && ahead_m <= wish.turn_m->to_m);
+  return is_there && !is_offered(passages, wished) ? wished : Turn::straight;
+}
+
 /// The passages over `reach_m` from the beginning of a lane. The first one leads into `into`, if that is a
 /// lane.
 std::vector<Passage> passages_ahead(const LaneGraph& graph, const RouteStart& start, const RouteWish& wish,
                                     double reach_m) {
   std::vector<Passage> way;
-  Turn wished = turn_of(wish.wish);
   DirectedLane last = start.lane;
   for (double length_m = length(last.lane->centerline); length_m < reach_m;) {
     std::vector<Passage> next = graph.successors(last);
     const bool is_begun = way.empty() && start.into != kNoElement;
+    const Turn wished = turn_behind(way, wish, length_m - start.arc_m);
     std::erase_if(next, [&](const Passage& passage) {
       const bool elsewhere = is_begun && passage.to.lane->id != start.into;
       const bool wrong =
@@ -100,12 +137,12 @@ std::vector<Passage> passages_ahead(const LaneGraph& graph, const RouteStart& st
       return elsewhere || wrong || is_walked(way, start.lane, passage.to.lane) ||
              !passage.to.lane->is_drivable();
     });
-    if (!is_begun) leave_out_branches(last, next);
+    if (!is_begun) choose_branch(last, wished, wish, next);
     const Passage* best = chosen(next, wished, wish.before);
     if (best == nullptr) break;
-    if (best->turn == wished) wished = Turn::straight;
+    const double gap_m = (begin_point(best->to) - last.centerline().back()).norm();
     last = best->to;
-    length_m += length(best->path) + length(last.lane->centerline);
+    length_m += std::max(gap_m, length(best->path)) + length(last.lane->centerline);
     way.push_back(*best);
   }
   return way;
@@ -311,14 +348,13 @@ Route route_through(const LaneGraph& graph, const RouteStart& start, const Route
   if (start.arc_m < behind_m) append_behind(graph, start, behind_m - start.arc_m, builder);
   const MeasuredPolyline own(start.lane.centerline());
   const double from_m = std::max(0.0, start.arc_m - behind_m);
+  const double vehicle_m = (route.points.empty() ? 0.0 : route.points.back().along_m) + start.arc_m - from_m;
   builder.append(from_m < own.length() ? own.slice({from_m, own.length()}) : own.points(),
                  {.lane = start.lane}, from_m < own.length() ? from_m : 0.0);
-  Turn wished = turn_of(wish.wish);
-  for (const Passage& passage : passages_ahead(graph, start, wish, start.arc_m + ahead_m)) {
-    append(builder, passage);
-    if (passage.turn == wished) wished = Turn::straight;
-  }
-  append_driven(graph, wish.before, wished, behind_m + ahead_m, builder);
+  const std::vector<Passage> passages = passages_ahead(graph, start, wish, start.arc_m + ahead_m);
+  for (const Passage& passage : passages) append(builder, passage);
+  const Turn turn = turn_behind(passages, wish, route.points.back().along_m - vehicle_m);
+  append_driven(graph, wish.before, turn, behind_m + ahead_m, builder);
   return route;
 }
 

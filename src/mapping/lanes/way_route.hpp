@@ -47,7 +47,8 @@ struct RouteStart {
 /// What decides where lanes fork.
 struct RouteWish {
   WayWish wish = WayWish::straight;
-  const Way* before = nullptr;  ///< with the same wish; null: there is none
+  const Way* before = nullptr;         ///< null: there is none
+  std::optional<Stretch> turn_m = {};  ///< where the wished turn is, ahead of the vehicle
   bool any_turn = false;  ///< another turn than the wished one is taken where the road may lead straight on
 };
 

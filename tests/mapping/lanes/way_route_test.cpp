@@ -65,6 +65,58 @@ TEST(WayRoute, ABranchDoesNotTakeTheWayFromTheLaneThatGoesOn) {
       << "the lane that goes on came up later";
 }
 
+/// Two streets to the left, at 20 m and at 60 m.
+LocalMap two_streets() {
+  LocalMap map;
+  map.lanes = {road_lane(1, {0, 0, 0}, {20, 0, 0}), road_lane(2, {32, 0, 0}, {60, 0, 0}),
+               road_lane(3, {72, 0, 0}, {120, 0, 0}), road_lane(4, {32, 12, 0}, {32, 60, 0}),
+               road_lane(5, {72, 12, 0}, {72, 60, 0})};
+  map.linkages = {link(1, 2), link(2, 3), link(1, 4, Turn::left, test::arc({20, 12, 0}, 12.0, -90, 0)),
+                  link(2, 5, Turn::left, test::arc({60, 12, 0}, 12.0, -90, 0))};
+  return map;
+}
+
+TEST(WayRoute, TurnsWhereTheTurnIs) {
+  const LocalMap map = two_streets();
+  const auto way = [&](double x, const Stretch& turn_m) {
+    return ids(way_on(map, test::at(x), WayWish::left, nullptr, {.reach_m = 90.0, .turn_m = turn_m}));
+  };
+  EXPECT_THAT(ids(way_on(map, test::at(5), WayWish::left)), ElementsAre(1, 4)) << "at the next street";
+  EXPECT_THAT(way(5, {10, 20}), ElementsAre(1, 4));
+  EXPECT_THAT(way(5, {50, 60}), ElementsAre(1, 2, 5));
+  EXPECT_THAT(way(45, {10, 20}), ElementsAre(2, 5)) << "ahead of the vehicle, not along its lane";
+  EXPECT_THAT(way(5, {25, 45}), ElementsAre(1, 2, 3)) << "no street is there";
+}
+
+TEST(WayRoute, WhereNoLaneTurnsTheBranchToThatSideIsTaken) {
+  LocalMap map;
+  map.lanes = {road_lane(1, {0, 0, 0}, {20, 0, 0}), road_lane(2, {24, 0, 0}, {80, 0, 0}),
+               road_lane(3, {22, -3, 0}, {80, -3, 0})};
+  map.linkages = {link(1, 2), link(1, 3)};
+  map.linkages[0].probability = 0.9;
+  const Way before = way_on(map, test::at(5));
+  const auto way = [&](WayWish wish, const WayOptions& options) {
+    return ids(way_on(map, test::at(6), wish, &before, options));
+  };
+  EXPECT_THAT(way(WayWish::right, {.turn_m = Stretch{5, 30}}), ElementsAre(1, 3))
+      << "though it was not before";
+  EXPECT_THAT(way(WayWish::left, {.turn_m = Stretch{5, 30}}), ElementsAre(1, 2));
+  EXPECT_THAT(way(WayWish::right, {.turn_m = Stretch{30, 60}}), ElementsAre(1, 2))
+      << "the exit is further on";
+  EXPECT_THAT(way(WayWish::right, {}), ElementsAre(1, 2)) << "wherever the turn is, this is none";
+}
+
+TEST(WayRoute, APathOfOthersIsFollowedRoundTheTurnWhereTheTurnIs) {
+  LocalMap map;
+  map.lanes = {road_lane(1, {0, 0, 0}, {20, 0, 0})};
+  map.driven_paths = {{.id = 9, .points = test::arc({20, 14, 0}, 14.0, -90, 0), .lateral_stddev_m = 0.6}};
+  const auto length_m = [&](const Stretch& turn_m) {
+    return way_on(map, test::at(5), WayWish::left, nullptr, {.turn_m = turn_m}).known_m;
+  };
+  EXPECT_GT(length_m({10, 20}), 30.0);
+  EXPECT_LT(length_m({20, 40}), 16.0) << "the turn is further on";
+}
+
 TEST(WayRoute, AtItsBorderTheVehicleStaysInTheLaneOfTheWayBefore) {
   LocalMap map;
   map.lanes = {road_lane(1, {0, 0, 0}, {120, 0, 0}), road_lane(2, {120, 3.5, 0}, {0, 3.5, 0})};

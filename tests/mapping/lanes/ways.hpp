@@ -40,8 +40,8 @@ inline Linkage link(ElementId from, ElementId to, Linkage::Turn turn = Linkage::
 }
 
 inline Way way_on(const LocalMap& map, const Eigen::Isometry3d& T_map_body, WayWish wish = WayWish::straight,
-                  const Way* before = nullptr) {
-  return way_ahead(LaneGraph(map), T_map_body, wish, before).value_or(Way{});
+                  const Way* before = nullptr, const WayOptions& options = {}) {
+  return way_ahead(LaneGraph(map), T_map_body, wish, before, options).value_or(Way{});
 }
 
 inline std::vector<ElementId> ids(const Way& way) {
