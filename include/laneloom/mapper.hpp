@@ -7,6 +7,7 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/network_profile.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "laneloom/sd_map.hpp"
 #include "laneloom/stages.hpp"
@@ -41,6 +42,10 @@ class Mapper {
   /// Takes what a tracker follows. T_map_body is the vehicle's pose at their stamp. The next update() uses
   /// it. Messages of one session come in the order of their stamps. All values must be finite.
   void add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body);
+  /// Takes the next turn of the vehicle's route. T_map_body is the vehicle's pose at its stamp. The ways of
+  /// the maps make it, until the vehicle has turned, is past the place, or another one is told. The distance
+  /// must be finite.
+  void add(const NextTurn& turn, const Eigen::Isometry3d& T_map_body);
 
   /// The map after the last update.
   const LocalMap& map() const;

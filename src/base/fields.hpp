@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "laneloom/messages.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 
 /// The members of map elements and detections, each named once, in the order of the IDL. Conversion to and
@@ -158,6 +159,10 @@ inline constexpr auto kFields<TrackedObject> = std::tuple(
     LANELOOM_FIELD(TrackedObject, speed_mps).as("speed"),
     LANELOOM_FIELD(TrackedObject, position_stddev_m).as("stddev"),
     LANELOOM_FIELD(TrackedObject, length_m).as("length"), LANELOOM_FIELD(TrackedObject, width_m).as("width"));
+
+template <>
+inline constexpr auto kFields<NextTurn> = std::tuple(
+    LANELOOM_FIELD(NextTurn, turn).needed(), LANELOOM_FIELD(NextTurn, distance_m).as("distance").needed());
 
 template <>
 inline constexpr auto kFields<FusedFrame> = std::tuple(

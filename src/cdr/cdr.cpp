@@ -50,6 +50,8 @@ template std::size_t to_cdr(const VehiclePose&, const std::string&, std::vector<
 template std::string_view from_cdr(std::span<const std::uint8_t>, const std::string&, VehiclePose&);
 template std::size_t to_cdr(const TrackedObjects&, const std::string&, std::vector<std::uint8_t>&);
 template std::string_view from_cdr(std::span<const std::uint8_t>, const std::string&, TrackedObjects&);
+template std::size_t to_cdr(const NextTurn&, const std::string&, std::vector<std::uint8_t>&);
+template std::string_view from_cdr(std::span<const std::uint8_t>, const std::string&, NextTurn&);
 template std::size_t to_cdr(const PublishedMap&, const std::string&, std::vector<std::uint8_t>&);
 template std::string_view from_cdr(std::span<const std::uint8_t>, const std::string&, PublishedMap&);
 template std::size_t to_cdr(const RoadMarkings&, const std::string&, std::vector<std::uint8_t>&);

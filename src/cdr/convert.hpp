@@ -6,6 +6,7 @@
 
 #include "cdr/layout.hpp"
 #include "laneloom/messages.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 
 /// Conversion between plain types and messages. `map_frame_id` is the frame that poses are in.
@@ -16,6 +17,7 @@ namespace laneloom::dds {
 std::size_t to_msg(const DetectionFrame& from, const std::string& map_frame_id, msg::Detections& to);
 std::size_t to_msg(const VehiclePose& from, const std::string& map_frame_id, msg::VehiclePose& to);
 std::size_t to_msg(const TrackedObjects& from, const std::string& map_frame_id, msg::Objects& to);
+std::size_t to_msg(const NextTurn& from, const std::string& map_frame_id, msg::NextTurn& to);
 std::size_t to_msg(const PublishedMap& from, const std::string& map_frame_id, msg::LaneMap& to);
 std::size_t to_msg(const RoadMarkings& from, const std::string& map_frame_id, msg::RoadMarkings& to);
 std::size_t to_msg(const ServiceStatus& from, const std::string& map_frame_id, msg::ServiceStatus& to);
@@ -28,6 +30,7 @@ using Refusal = std::string_view;
 Refusal from_msg(msg::Detections&& from, const std::string& map_frame_id, DetectionFrame& to);
 Refusal from_msg(const msg::VehiclePose& from, const std::string& map_frame_id, VehiclePose& to);
 Refusal from_msg(const msg::Objects& from, const std::string& map_frame_id, TrackedObjects& to);
+Refusal from_msg(const msg::NextTurn& from, const std::string& map_frame_id, NextTurn& to);
 Refusal from_msg(const msg::LaneMap& from, const std::string& map_frame_id, PublishedMap& to);
 Refusal from_msg(const msg::RoadMarkings& from, const std::string& map_frame_id, RoadMarkings& to);
 Refusal from_msg(const msg::ServiceStatus& from, const std::string& map_frame_id, ServiceStatus& to);

@@ -104,4 +104,20 @@ Refusal from_msg(const msg::Objects& from, const std::string& map_frame_id, Trac
   return intake.refusal();
 }
 
+std::size_t to_msg(const NextTurn& from, const std::string& /*map_frame_id*/, msg::NextTurn& to) {
+  to.header(header_to_msg(from.stamp_ns, from.sequence, from.session_id, ""));
+  ToMessage().put(from, to);
+  return 0;
+}
+
+Refusal from_msg(const msg::NextTurn& from, const std::string& /*map_frame_id*/, NextTurn& to) {
+  Intake intake;
+  to.stamp_ns = from.header().stamp_ns();
+  to.sequence = from.header().sequence_number();
+  to.session_id = from.header().session_id();
+  intake.text(from.header().frame_id().to_string());
+  intake.take(from, to);
+  return intake.refusal();
+}
+
 }  // namespace laneloom::dds

@@ -102,6 +102,11 @@ void scan(CdrScanner& cdr, const msg::Objects* /*type*/) {
   values<std::vector<TrackedObject>>(cdr);
 }
 
+void scan(CdrScanner& cdr, const msg::NextTurn* /*type*/) {
+  header(cdr);
+  values<NextTurn>(cdr);
+}
+
 void scan(CdrScanner& cdr, const msg::LaneMap* /*type*/) {
   header(cdr);
   cdr.numbers(kLongLong, 2);

@@ -2,6 +2,7 @@
 
 #include "Detections.hpp"
 #include "LaneMap.hpp"
+#include "NextTurn.hpp"
 #include "Objects.hpp"
 #include "RoadMarkings.hpp"
 #include "ServiceStatus.hpp"
@@ -14,6 +15,7 @@ namespace laneloom::dds {
 void scan(CdrScanner& cdr, const msg::Detections*);
 void scan(CdrScanner& cdr, const msg::VehiclePose*);
 void scan(CdrScanner& cdr, const msg::Objects*);
+void scan(CdrScanner& cdr, const msg::NextTurn*);
 void scan(CdrScanner& cdr, const msg::LaneMap*);
 void scan(CdrScanner& cdr, const msg::RoadMarkings*);
 void scan(CdrScanner& cdr, const msg::ServiceStatus*);
@@ -22,6 +24,7 @@ void scan(CdrScanner& cdr, const msg::ServiceStatus*);
 constexpr std::uint32_t data_id(const msg::Detections* /*type*/) { return msg::DATA_ID_DETECTIONS; }
 constexpr std::uint32_t data_id(const msg::VehiclePose* /*type*/) { return msg::DATA_ID_VEHICLE_POSE; }
 constexpr std::uint32_t data_id(const msg::Objects* /*type*/) { return msg::DATA_ID_OBJECTS; }
+constexpr std::uint32_t data_id(const msg::NextTurn* /*type*/) { return msg::DATA_ID_NEXT_TURN; }
 constexpr std::uint32_t data_id(const msg::LaneMap* /*type*/) { return msg::DATA_ID_LANE_MAP; }
 constexpr std::uint32_t data_id(const msg::RoadMarkings* /*type*/) { return msg::DATA_ID_ROAD_MARKINGS; }
 constexpr std::uint32_t data_id(const msg::ServiceStatus* /*type*/) { return msg::DATA_ID_STATUS; }

@@ -7,6 +7,7 @@
 
 #include "laneloom/counters.hpp"
 #include "laneloom/messages.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
@@ -14,13 +15,13 @@ namespace laneloom::core {
 
 /// A message and the time of its arrival, by the steady clock.
 struct Arrival {
-  std::variant<VehiclePose, DetectionFrame, TrackedObjects> message;
+  std::variant<VehiclePose, DetectionFrame, TrackedObjects, NextTurn> message;
   std::int64_t arrival_ns = 0;
 };
 
 /// The input of a tick, taken at one instant. The counters fit the messages: detections_received = refused +
-/// dropped + the frames of all Arrivals so far, and likewise for poses and objects. Times are by the steady
-/// clock; none: never.
+/// dropped + the frames of all Arrivals so far, and likewise for poses, objects and turns. Times are by the
+/// steady clock; none: never.
 struct Arrivals {
   std::vector<Arrival> messages;                ///< since the tick before, in the order of their arrival
   Counters counters;                            ///< of events outside the core, since the start

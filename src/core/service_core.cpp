@@ -88,6 +88,8 @@ void ServiceCore::fuse(const Tick& tick, std::vector<Arrival>&& messages) {
       session_.add(std::move(*frame), arrival_ns);
     } else if (auto* objects = std::get_if<TrackedObjects>(&message)) {
       session_.add(std::move(*objects));
+    } else if (const auto* turn = std::get_if<NextTurn>(&message)) {
+      session_.add(*turn);
     } else {
       session_.add(std::get<VehiclePose>(message));
     }

@@ -16,7 +16,7 @@ namespace laneloom::dds {
 enum class TopicKind {
   detections,  ///< to the service, some a second, large
   poses,       ///< to the service, many a second, small
-  objects,     ///< to the service, some a second
+  objects,     ///< to the service, some a second; the next message tells the same anew
   map,         ///< from the service, at every tick; a late reader gets the newest message
   status,      ///< from the service, now and then; a late reader gets the newest message
   view         ///< from the service to viewers; a late reader gets the next message

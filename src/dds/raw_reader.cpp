@@ -40,6 +40,7 @@ RawReader<T>::~RawReader() = default;
 template class RawReader<DetectionFrame>;
 template class RawReader<VehiclePose>;
 template class RawReader<TrackedObjects>;
+template class RawReader<NextTurn>;
 template class RawReader<PublishedMap>;
 template class RawReader<RoadMarkings>;
 template class RawReader<ServiceStatus>;

@@ -45,6 +45,7 @@ int RawWriter<T>::matched() const {
 template class RawWriter<DetectionFrame>;
 template class RawWriter<VehiclePose>;
 template class RawWriter<TrackedObjects>;
+template class RawWriter<NextTurn>;
 template class RawWriter<PublishedMap>;
 template class RawWriter<RoadMarkings>;
 template class RawWriter<ServiceStatus>;

@@ -74,6 +74,7 @@ int Reader<T>::matched() const {
 template class Reader<DetectionFrame>;
 template class Reader<VehiclePose>;
 template class Reader<TrackedObjects>;
+template class Reader<NextTurn>;
 template class Reader<PublishedMap>;
 template class Reader<RoadMarkings>;
 template class Reader<ServiceStatus>;

@@ -6,6 +6,7 @@
 
 #include "DetectionsPubSubTypes.hpp"
 #include "LaneMapPubSubTypes.hpp"
+#include "NextTurnPubSubTypes.hpp"
 #include "ObjectsPubSubTypes.hpp"
 #include "RoadMarkingsPubSubTypes.hpp"
 #include "ServiceStatusPubSubTypes.hpp"
@@ -48,6 +49,13 @@ struct TopicTraits<TrackedObjects> {
   using Type = CheckedType<msg::ObjectsPubSubType>;
   static constexpr auto kName = kObjectsTopic;
   static constexpr auto kKind = TopicKind::objects;
+};
+
+template <>
+struct TopicTraits<NextTurn> {
+  using Type = CheckedType<msg::NextTurnPubSubType>;
+  static constexpr auto kName = kNextTurnTopic;
+  static constexpr auto kKind = TopicKind::objects;  // it, too, is told anew some times a second
 };
 
 template <>

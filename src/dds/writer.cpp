@@ -51,6 +51,7 @@ int Writer<T>::matched() const {
 template class Writer<DetectionFrame>;
 template class Writer<VehiclePose>;
 template class Writer<TrackedObjects>;
+template class Writer<NextTurn>;
 template class Writer<PublishedMap>;
 template class Writer<RoadMarkings>;
 template class Writer<ServiceStatus>;

@@ -133,9 +133,14 @@ LocalMap assembled(const geometry::Scene& scene, markings::FusedMarkings fused, 
 }
 
 /// Makes the own way anew, the way before continued.
-void lead_on(const markings::StageLog& log, const std::optional<Way>& before, LocalMap& map) {
-  map.way = log.done(
-      Stage::way, way_ahead(LaneGraph(map), map.T_map_body, WayWish::straight, before ? &*before : nullptr));
+void lead_on(const markings::StageLog& log, const std::optional<Way>& former, lanes::WishedTurn& turn,
+             LocalMap& map) {
+  const Way* const before = former ? &*former : nullptr;
+  turn.drive_to(map.T_map_body.translation());
+  std::optional<Way> way =
+      way_ahead(LaneGraph(map), map.T_map_body, turn.wish(), before, {.turn_m = turn.range()});
+  if (turn.is_over(before, way ? &*way : nullptr)) turn = {};
+  map.way = log.done(Stage::way, std::move(way));
 }
 
 /// Takes no more than the pose of a frame that tells next to nothing new.
@@ -152,7 +157,7 @@ void see_again(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
     map.T_map_body = T_map_body;
   }
   state.trails.keep_around(map.T_map_body.translation());
-  lead_on(log, map.way, map);
+  lead_on(log, map.way, state.turn, map);
 }
 
 }  // namespace
@@ -211,7 +216,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   LocalMap map =
       log.done(Stage::linkages, assembled(scene, std::move(fused), std::move(road), config_.stopline, state));
   map.driven_paths = std::move(paths);
-  lead_on(log, state.map.way, map);
+  lead_on(log, state.map.way, state.turn, map);
   state.map = std::move(map);
   return state.map;
 }
@@ -233,6 +238,10 @@ Eigen::Isometry3d Mapper::follow_poses(const DetectionFrame& frame, const Eigen:
 
 void Mapper::add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body) {
   if (config_.direction.use_traffic) state_->trails.add(in_body_frame(objects, T_map_body), T_map_body);
+}
+
+void Mapper::add(const NextTurn& turn, const Eigen::Isometry3d& T_map_body) {
+  state_->turn = lanes::WishedTurn(turn, T_map_body.translation());
 }
 
 const LocalMap& Mapper::map() const { return state_->map; }

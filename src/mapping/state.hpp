@@ -10,6 +10,7 @@
 #include "mapping/lanes/inferred_memory.hpp"
 #include "mapping/lanes/known_lines.hpp"
 #include "mapping/lanes/lane_tracks.hpp"
+#include "mapping/lanes/wished_turn.hpp"
 #include "mapping/lineage.hpp"
 #include "mapping/lines/line_mapper.hpp"
 #include "mapping/markings/id_source.hpp"
@@ -75,7 +76,8 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
   markings::IdSource ids;
   PoseJumps pose_jumps;
   Polyline driven;  ///< places of the vehicle on its way, the last one last
-  LocalMap map;     ///< the last map
+  lanes::WishedTurn turn;
+  LocalMap map;  ///< the last map
 
   /// Remembers where the vehicle is.
   void drive_through(const Point& place);
@@ -87,7 +89,7 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
   template <class Archive>
   void serialize(Archive& archive) {
     archive(frame, fusion, inferred, lane_tracks, ego_track, trails, driven_paths, side, published, ids,
-            pose_jumps, driven, map);
+            pose_jumps, driven, turn, map);
   }
 };
 

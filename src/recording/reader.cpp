@@ -25,8 +25,8 @@ constexpr std::string_view kTopicsOfAnyVersion = "laneloom/v";
 constexpr std::string_view kViewersTypes = "foxglove::";
 
 template <class T>
-constexpr bool kIsInput =
-    std::is_same_v<T, DetectionFrame> || std::is_same_v<T, VehiclePose> || std::is_same_v<T, TrackedObjects>;
+constexpr bool kIsInput = std::is_same_v<T, DetectionFrame> || std::is_same_v<T, VehiclePose> ||
+                          std::is_same_v<T, TrackedObjects> || std::is_same_v<T, NextTurn>;
 
 /// Why a message of a channel with the topic's name is refused. Empty: it is not refused. The name alone does
 /// not tell that the channel is the topic's.
@@ -105,7 +105,7 @@ class RecordingReader::Impl {
   bool accept(const McapMessage& message, const Take& take) {
     if (message.channel->schema && message.channel->schema->name.starts_with(kViewersTypes)) return false;
     const auto reason = take_if_of<Take, DetectionFrame, VehiclePose, PublishedMap, RoadMarkings,
-                                   ServiceStatus, TrackedObjects>(message, take);
+                                   ServiceStatus, TrackedObjects, NextTurn>(message, take);
     if (reason.empty()) return true;
     refused_.add(message.channel->topic + ": " + std::string(reason));
     return false;

@@ -11,6 +11,7 @@
 
 #include "laneloom/counters.hpp"
 #include "laneloom/messages.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
@@ -60,9 +61,9 @@ class RecordingWriter {
   /// Closes the file. Failures are swallowed; close() reports them.
   ~RecordingWriter();
 
-  /// Writes a message. T is DetectionFrame, VehiclePose, TrackedObjects, PublishedMap, RoadMarkings or
-  /// ServiceStatus. `log_time_ns` is the time of its reception, by the system clock. Its stamp is recorded as
-  /// its publish time.
+  /// Writes a message. T is DetectionFrame, VehiclePose, TrackedObjects, NextTurn, PublishedMap,
+  /// RoadMarkings or ServiceStatus. `log_time_ns` is the time of its reception, by the system clock. Its
+  /// stamp is recorded as its publish time.
   template <class T>
   void write(const T& message, std::int64_t log_time_ns);
   /// Writes a message of T's topic as CDR (laneloom/dds/cdr.hpp), which need not be well formed.
@@ -94,8 +95,8 @@ struct RecordingLimits {
   std::uint64_t max_open_bytes = 1U << 30U;     ///< of all chunks whose times overlap
 };
 
-using AnyMessage =
-    std::variant<DetectionFrame, VehiclePose, PublishedMap, RoadMarkings, ServiceStatus, TrackedObjects>;
+using AnyMessage = std::variant<DetectionFrame, VehiclePose, PublishedMap, RoadMarkings, ServiceStatus,
+                                TrackedObjects, NextTurn>;
 
 /// A message of a recording.
 struct RecordedMessage {
@@ -131,7 +132,7 @@ class RecordingReader {
   /// The next message in the order of log times. Messages of equal log times keep the order of the file.
   /// None: the end.
   std::optional<RecordedMessage> next();
-  /// The next detections, pose or objects. Messages that the service published are passed over unread.
+  /// The next detections, pose, objects or turn. Messages that the service published are passed over unread.
   std::optional<RecordedMessage> next_input();
   /// The next message of a topic with the name and type of one of laneloom's, without a look into its bytes.
   std::optional<RawMessage> next_raw();

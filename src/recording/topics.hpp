@@ -6,6 +6,7 @@
 
 #include "laneloom/dds/topics.hpp"
 #include "laneloom/messages.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "recording/recording.hpp"
 
@@ -17,14 +18,15 @@ namespace laneloom::recording {
 extern const char* const kDetectionsIdl;
 extern const char* const kVehiclePoseIdl;
 extern const char* const kObjectsIdl;
+extern const char* const kNextTurnIdl;
 extern const char* const kLaneMapIdl;
 extern const char* const kRoadMarkingsIdl;
 extern const char* const kServiceStatusIdl;
 
 /// The names of the topics, in the order of AnyMessage.
 inline constexpr std::array<const char*, std::variant_size_v<AnyMessage>> kTopicNames{
-    dds::kDetectionsTopic,   dds::kVehiclePoseTopic, dds::kLaneMapTopic,
-    dds::kRoadMarkingsTopic, dds::kStatusTopic,      dds::kObjectsTopic};
+    dds::kDetectionsTopic, dds::kVehiclePoseTopic, dds::kLaneMapTopic, dds::kRoadMarkingsTopic,
+    dds::kStatusTopic,     dds::kObjectsTopic,     dds::kNextTurnTopic};
 
 inline constexpr const char* kCdr = "cdr";
 inline constexpr const char* kOmgIdl = "omgidl";
@@ -62,6 +64,10 @@ inline RecordedTopic topic_of<VehiclePose>() {
 template <>
 inline RecordedTopic topic_of<TrackedObjects>() {
   return {dds::kObjectsTopic, dds::kObjectsType, kObjectsIdl};
+}
+template <>
+inline RecordedTopic topic_of<NextTurn>() {
+  return {dds::kNextTurnTopic, dds::kNextTurnType, kNextTurnIdl};
 }
 template <>
 inline RecordedTopic topic_of<PublishedMap>() {

@@ -175,6 +175,8 @@ template void RecordingWriter::write(const VehiclePose&, std::int64_t);
 template void RecordingWriter::write_cdr<VehiclePose>(std::span<const std::uint8_t>, std::int64_t);
 template void RecordingWriter::write(const TrackedObjects&, std::int64_t);
 template void RecordingWriter::write_cdr<TrackedObjects>(std::span<const std::uint8_t>, std::int64_t);
+template void RecordingWriter::write(const NextTurn&, std::int64_t);
+template void RecordingWriter::write_cdr<NextTurn>(std::span<const std::uint8_t>, std::int64_t);
 template void RecordingWriter::write(const PublishedMap&, std::int64_t);
 template void RecordingWriter::write_cdr<PublishedMap>(std::span<const std::uint8_t>, std::int64_t);
 template void RecordingWriter::write(const RoadMarkings&, std::int64_t);

@@ -44,6 +44,11 @@ InputReaders::InputReaders(const std::shared_ptr<dds::Participant::Impl>& partic
       objects_(participant,
                topic<ObjectsType>(config.ros2, config.ros2.objects_topic, kObjectsType, TopicKind::objects),
                std::move(inputs.objects),
-               in_frame_of<const TrackedObjects_&, TrackedObjects>(config, from_ros)) {}
+               in_frame_of<const TrackedObjects_&, TrackedObjects>(config, from_ros)),
+      next_turns_(participant,
+                  topic<dds::CheckedType<msg::NextTurnPubSubType>>(config.ros2, kNextTurnTopic, kNextTurnType,
+                                                                   TopicKind::objects),
+                  std::move(inputs.next_turns),
+                  in_frame_of<const msg::NextTurn&, NextTurn>(config, dds::from_msg)) {}
 
 }  // namespace laneloom::ros2

@@ -23,6 +23,7 @@ class InputReaders {
   Input<msg::Detections, DetectionFrame> detections_;
   Input<nav_msgs::msg::dds_::Odometry_, VehiclePose> odometry_;
   Input<autoware_perception_msgs::msg::dds_::TrackedObjects_, TrackedObjects> objects_;
+  Input<msg::NextTurn, NextTurn> next_turns_;
 };
 
 }  // namespace laneloom::ros2

@@ -5,6 +5,7 @@
 
 #include "laneloom/config.hpp"
 #include "laneloom/dds/reader.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
@@ -16,6 +17,7 @@ struct Inputs {
   dds::ReaderCallbacks<DetectionFrame> detections;
   dds::ReaderCallbacks<VehiclePose> poses;
   dds::ReaderCallbacks<TrackedObjects> objects;
+  dds::ReaderCallbacks<NextTurn> next_turns;
 };
 
 /// Reads what nodes of ROS 2 write for the service, on a participant of its own, and is no service. Not

@@ -16,6 +16,9 @@ inline constexpr const char* kNodeName = "laneloom";
 /// Topic (in the namespace) and type of the frames of detections.
 inline constexpr const char* kDetectionsTopic = "laneloom/detections";
 inline constexpr const char* kDetectionsType = "laneloom_msgs/msg/Detections";
+/// Topic (in the namespace) and type of the route's next turn.
+inline constexpr const char* kNextTurnTopic = "laneloom/next_turn";
+inline constexpr const char* kNextTurnType = "laneloom_msgs/msg/NextTurn";
 /// Type of the poses. The configuration names their topic.
 inline constexpr const char* kOdometryType = "nav_msgs/msg/Odometry";
 /// Type of the tracked objects. The configuration names their topic.

@@ -6,37 +6,16 @@
 namespace laneloom::service {
 namespace {
 
-dds::ReaderCallbacks<DetectionFrame> take_detections(IngestionQueue& queue,
-                                                     const std::function<std::int64_t()>& now_ns) {
-  dds::ReaderCallbacks<DetectionFrame> callbacks;
-  callbacks.sample = [&queue, now_ns](DetectionFrame&& frame) { queue.push(std::move(frame), now_ns()); };
-  callbacks.refused = [&queue, now_ns](std::string_view reason) {
-    queue.refuse_detections(reason, now_ns());
+template <class T>
+dds::ReaderCallbacks<T> take(Input input, IngestionQueue& queue,
+                             const std::function<std::int64_t()>& now_ns) {
+  dds::ReaderCallbacks<T> callbacks;
+  callbacks.sample = [&queue, now_ns](T&& message) { queue.push(std::move(message), now_ns()); };
+  callbacks.refused = [input, &queue, now_ns](std::string_view reason) {
+    queue.refuse(input, reason, now_ns());
   };
-  callbacks.numbered = [&queue](const dds::WriterId& writer, std::uint64_t number) {
-    queue.number_detections(writer, number);
-  };
-  return callbacks;
-}
-
-dds::ReaderCallbacks<VehiclePose> take_poses(IngestionQueue& queue,
-                                             const std::function<std::int64_t()>& now_ns) {
-  dds::ReaderCallbacks<VehiclePose> callbacks;
-  callbacks.sample = [&queue, now_ns](VehiclePose&& pose) { queue.push(std::move(pose), now_ns()); };
-  callbacks.refused = [&queue, now_ns](std::string_view reason) { queue.refuse_pose(reason, now_ns()); };
-  callbacks.numbered = [&queue](const dds::WriterId& writer, std::uint64_t number) {
-    queue.number_pose(writer, number);
-  };
-  return callbacks;
-}
-
-dds::ReaderCallbacks<TrackedObjects> take_objects(IngestionQueue& queue,
-                                                  const std::function<std::int64_t()>& now_ns) {
-  dds::ReaderCallbacks<TrackedObjects> callbacks;
-  callbacks.sample = [&queue, now_ns](TrackedObjects&& objects) { queue.push(std::move(objects), now_ns()); };
-  callbacks.refused = [&queue](std::string_view reason) { queue.refuse_objects(reason); };
-  callbacks.numbered = [&queue](const dds::WriterId& writer, std::uint64_t number) {
-    queue.number_objects(writer, number);
+  callbacks.numbered = [input, &queue](const dds::WriterId& writer, std::uint64_t number) {
+    queue.number(input, writer, number);
   };
   return callbacks;
 }
@@ -58,15 +37,19 @@ Endpoints::Endpoints(const Config& config, std::uint64_t session_id, IngestionQu
       map(participant_),
       road_markings(participant_),
       status(participant_),
-      detections_(participant_, take_detections(queue, now_ns)),
-      poses_(participant_, take_poses(queue, now_ns)),
-      objects_(participant_, take_objects(queue, now_ns)),
+      detections_(participant_, take<DetectionFrame>(Input::detections, queue, now_ns)),
+      poses_(participant_, take<VehiclePose>(Input::poses, queue, now_ns)),
+      objects_(participant_, take<TrackedObjects>(Input::objects, queue, now_ns)),
+      next_turns_(participant_, take<NextTurn>(Input::next_turns, queue, now_ns)),
       services_(participant_, look_for_others(session_id, queue, now_ns)) {
   if (!config.ros2.enabled) return;
-  ros2 = std::make_unique<ros2::Endpoints>(
-      config,
-      ros2::Inputs{take_detections(queue, now_ns), take_poses(queue, now_ns), take_objects(queue, now_ns)},
-      presence);
+  ros2 =
+      std::make_unique<ros2::Endpoints>(config,
+                                        ros2::Inputs{take<DetectionFrame>(Input::detections, queue, now_ns),
+                                                     take<VehiclePose>(Input::poses, queue, now_ns),
+                                                     take<TrackedObjects>(Input::objects, queue, now_ns),
+                                                     take<NextTurn>(Input::next_turns, queue, now_ns)},
+                                        presence);
 }
 
 Counters Endpoints::refused_datagrams() const {

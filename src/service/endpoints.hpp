@@ -42,6 +42,7 @@ class Endpoints {
   dds::Reader<DetectionFrame> detections_;
   dds::Reader<VehiclePose> poses_;
   dds::Reader<TrackedObjects> objects_;
+  dds::Reader<NextTurn> next_turns_;
   dds::Reader<ServiceStatus> services_;
 };
 

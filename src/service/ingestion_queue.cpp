@@ -17,14 +17,22 @@ namespace {
 
 constexpr std::size_t kMaxSources = 16;
 
+/// The name of a counter of one topic.
+std::string counter(Input input, std::string_view what) {
+  return std::string(kInputNames.at(static_cast<std::size_t>(input))) + "_" + std::string(what);
+}
+std::string refused(Input input, std::string_view reason) {
+  return counter(input, "refused_") + std::string(reason);
+}
+
 }  // namespace
 
 IngestionQueue::IngestionQueue(const Config& config, std::function<void()> frame_is_ready)
     : config_(config.sync), gate_(config.gate), frame_is_ready_(std::move(frame_is_ready)) {
-  for (const auto* name : {"detections_received", "poses_received", "objects_received",
-                           "frames_dropped_queue_full", "poses_dropped_queue_full"}) {
+  for (std::size_t i = 0; i < streams_.size(); ++i)
+    state_.counters.add(counter(static_cast<Input>(i), "received"), 0);
+  for (const auto* name : {"frames_dropped_queue_full", "poses_dropped_queue_full"})
     state_.counters.add(name, 0);
-  }
 }
 
 void IngestionQueue::push(DetectionFrame&& frame, std::int64_t arrival_ns) {
@@ -40,31 +48,33 @@ bool IngestionQueue::enqueue(DetectionFrame&& frame, std::int64_t arrival_ns) {
   const std::string_view refusal = session::defect(frame, gate_);
   const std::size_t left_out = refusal.empty() ? session::admit(gate_, frame) : 0;
   const std::lock_guard lock(mutex_);
-  note_frame(arrival_ns);
+  note(Input::detections, arrival_ns);
   note_source(frame, arrival_ns);
   if (!refusal.empty()) {
-    state_.counters.add("detections_refused_" + std::string(refusal));
+    state_.counters.add(refused(Input::detections, refusal));
     return false;
   }
   if (left_out > 0) {
     state_.counters.add("frames_thinned");
     state_.counters.add("detections_left_out", left_out);
   }
-  if (frames_.size() >= static_cast<std::size_t>(config_.queue_capacity)) drop_oldest_of_most();
+  Queue& frames = queue(Input::detections);
+  if (frames.size() >= static_cast<std::size_t>(config_.queue_capacity)) drop_oldest_of_most();
   const bool is_ready = readiness_.note_frame(frame.stamp_ns);
-  push(frames_, {std::move(frame), arrival_ns});
+  push(frames, {std::move(frame), arrival_ns});
   return note_ready(is_ready ? 1 : 0, arrival_ns);
 }
 
 bool IngestionQueue::enqueue(VehiclePose&& pose, std::int64_t arrival_ns) {
   const std::lock_guard lock(mutex_);
-  note_pose(arrival_ns);
-  if (poses_.size() >= static_cast<std::size_t>(config_.pose_queue_capacity)) {
-    poses_.pop_front();
+  note(Input::poses, arrival_ns);
+  Queue& poses = queue(Input::poses);
+  if (poses.size() >= static_cast<std::size_t>(config_.pose_queue_capacity)) {
+    poses.pop_front();
     state_.counters.add("poses_dropped_queue_full");
   }
   const std::size_t ready = readiness_.note_pose(pose.stamp_ns);
-  push(poses_, {std::move(pose), arrival_ns});
+  push(poses, {std::move(pose), arrival_ns});
   return note_ready(ready, arrival_ns);
 }
 
@@ -80,28 +90,39 @@ std::vector<std::int64_t> IngestionQueue::take_ready() {
 }
 
 void IngestionQueue::push(TrackedObjects&& objects, std::int64_t arrival_ns) {
-  const std::string_view refusal = session::defect(objects, gate_);
+  push_optional(Input::objects, std::move(objects), arrival_ns);
+}
+
+void IngestionQueue::push(NextTurn&& turn, std::int64_t arrival_ns) {
+  push_optional(Input::next_turns, std::move(turn), arrival_ns);
+}
+
+template <class T>
+void IngestionQueue::push_optional(Input input, T&& message, std::int64_t arrival_ns) {
+  const std::string_view refusal = session::defect(message, gate_);
   const std::lock_guard lock(mutex_);
-  count_objects();
+  note(input, arrival_ns);
   if (!refusal.empty()) {
-    state_.counters.add("objects_refused_" + std::string(refusal));
+    state_.counters.add(refused(input, refusal));
     return;
   }
-  if (objects_.size() >= static_cast<std::size_t>(config_.queue_capacity)) {
-    objects_.pop_front();
-    state_.counters.add("objects_dropped_queue_full");
+  if (queue(input).size() >= static_cast<std::size_t>(config_.queue_capacity)) {
+    queue(input).pop_front();
+    const std::string kind = kInputNames.at(static_cast<std::size_t>(input));
+    state_.counters.add(kind + "_dropped_queue_full");
   }
-  push(objects_, {std::move(objects), arrival_ns});
+  push(queue(input), {std::forward<T>(message), arrival_ns});
 }
 
 void IngestionQueue::drop_oldest_of_most() {
   const auto source_of = [](const Numbered& numbered) -> const std::string& {
     return std::get<DetectionFrame>(numbered.arrival.message).source;
   };
+  Queue& frames = queue(Input::detections);
   std::map<std::string_view, std::size_t> counts;
-  for (const Numbered& numbered : frames_) ++counts[source_of(numbered)];
+  for (const Numbered& numbered : frames) ++counts[source_of(numbered)];
   const auto most = std::ranges::max_element(counts, {}, [](const auto& count) { return count.second; });
-  frames_.erase(std::ranges::find(frames_, most->first, source_of));
+  frames.erase(std::ranges::find(frames, most->first, source_of));
   state_.counters.add("frames_dropped_queue_full");
 }
 
@@ -129,39 +150,17 @@ void IngestionQueue::forget_a_source() {
   state_.heard_ns.erase(silent);
 }
 
-void IngestionQueue::note_frame(std::int64_t arrival_ns) {
-  state_.newest_frame_ns = arrival_ns;
-  state_.counters.add("detections_received");
-  frames_lost_ = lost_frames_.total();
+void IngestionQueue::note(Input input, std::int64_t arrival_ns) {
+  if (input == Input::detections) state_.newest_frame_ns = arrival_ns;
+  if (input == Input::poses) state_.newest_pose_ns = arrival_ns;
+  state_.counters.add(counter(input, "received"));
+  stream(input).lost_count = stream(input).lost.total();
 }
 
-void IngestionQueue::note_pose(std::int64_t arrival_ns) {
-  state_.newest_pose_ns = arrival_ns;
-  state_.counters.add("poses_received");
-  poses_lost_ = lost_poses_.total();
-}
-
-void IngestionQueue::count_objects() {
-  state_.counters.add("objects_received");
-  objects_lost_ = lost_objects_.total();
-}
-
-void IngestionQueue::refuse_detections(std::string_view reason, std::int64_t arrival_ns) {
+void IngestionQueue::refuse(Input input, std::string_view reason, std::int64_t arrival_ns) {
   const std::lock_guard lock(mutex_);
-  note_frame(arrival_ns);
-  state_.counters.add("detections_refused_" + std::string(reason));
-}
-
-void IngestionQueue::refuse_pose(std::string_view reason, std::int64_t arrival_ns) {
-  const std::lock_guard lock(mutex_);
-  note_pose(arrival_ns);
-  state_.counters.add("poses_refused_" + std::string(reason));
-}
-
-void IngestionQueue::refuse_objects(std::string_view reason) {
-  const std::lock_guard lock(mutex_);
-  count_objects();
-  state_.counters.add("objects_refused_" + std::string(reason));
+  note(input, arrival_ns);
+  state_.counters.add(refused(input, reason));
 }
 
 void IngestionQueue::note_other_service(std::int64_t arrival_ns) {
@@ -169,31 +168,21 @@ void IngestionQueue::note_other_service(std::int64_t arrival_ns) {
   state_.other_service_ns = arrival_ns;
 }
 
-void IngestionQueue::number_detections(const dds::WriterId& writer, std::uint64_t number) {
+void IngestionQueue::number(Input input, const dds::WriterId& writer, std::uint64_t number) {
   const std::lock_guard lock(mutex_);
-  lost_frames_.note(writer, number);
-}
-
-void IngestionQueue::number_pose(const dds::WriterId& writer, std::uint64_t number) {
-  const std::lock_guard lock(mutex_);
-  lost_poses_.note(writer, number);
-}
-
-void IngestionQueue::number_objects(const dds::WriterId& writer, std::uint64_t number) {
-  const std::lock_guard lock(mutex_);
-  lost_objects_.note(writer, number);
+  stream(input).lost.note(writer, number);
 }
 
 core::Arrivals IngestionQueue::take() {
   core::Arrivals arrivals;
-  std::array<Queue, 3> queues;
+  std::array<Queue, kInputNames.size()> queues;
   {
     const std::lock_guard lock(mutex_);
     arrivals = state_;
-    arrivals.counters.add("detections_lost", frames_lost_);
-    arrivals.counters.add("poses_lost", poses_lost_);
-    arrivals.counters.add("objects_lost", objects_lost_);
-    queues = {std::exchange(frames_, {}), std::exchange(poses_, {}), std::exchange(objects_, {})};
+    for (std::size_t i = 0; i < queues.size(); ++i) {
+      arrivals.counters.add(counter(static_cast<Input>(i), "lost"), streams_.at(i).lost_count);
+      queues.at(i) = std::exchange(streams_.at(i).queue, {});
+    }
   }
   std::vector<Numbered> merged;
   for (Queue& queue : queues) std::ranges::move(queue, std::back_inserter(merged));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -17,9 +18,13 @@
 
 namespace laneloom::service {
 
+/// The topics that the service reads.
+enum class Input : std::uint8_t { detections, poses, objects, next_turns };
+inline constexpr std::array kInputNames{"detections", "poses", "objects", "next_turns"};
+
 /// The queue between the threads of DDS, which push, and the executor, which takes. It is bounded: for a new
-/// pose the oldest pose is dropped, for new objects the oldest objects, for a new frame the oldest frame of
-/// the source that has the most. All are counted. All functions are thread-safe.
+/// message of a full topic its oldest one is dropped; of detections, the oldest frame of the source that has
+/// the most. All are counted. All functions are thread-safe.
 class IngestionQueue {
  public:
   /// `frame_is_ready` is called, in the thread of the message that made it so, when a frame can be fused: it
@@ -31,18 +36,15 @@ class IngestionQueue {
   void push(DetectionFrame&& frame, std::int64_t arrival_ns);
   void push(VehiclePose&& pose, std::int64_t arrival_ns);
   void push(TrackedObjects&& objects, std::int64_t arrival_ns);
+  void push(NextTurn&& turn, std::int64_t arrival_ns);
   /// Counts a message that was refused as invalid. It has arrived all the same.
-  void refuse_detections(std::string_view reason, std::int64_t arrival_ns);
-  void refuse_pose(std::string_view reason, std::int64_t arrival_ns);
-  void refuse_objects(std::string_view reason);
+  void refuse(Input input, std::string_view reason, std::int64_t arrival_ns);
 
   /// Notes that another service of the same vehicle was heard.
   void note_other_service(std::int64_t arrival_ns);
   /// Is called before each push or refusal, with the writer of the message and its number among the writer's
   /// messages. The numbers tell which messages never came.
-  void number_detections(const dds::WriterId& writer, std::uint64_t number);
-  void number_pose(const dds::WriterId& writer, std::uint64_t number);
-  void number_objects(const dds::WriterId& writer, std::uint64_t number);
+  void number(Input input, const dds::WriterId& writer, std::uint64_t number);
 
   /// Takes the messages since the call before, with the counters since the start.
   core::Arrivals take();
@@ -56,8 +58,21 @@ class IngestionQueue {
     core::Arrival arrival;
   };
   using Queue = std::deque<Numbered>;
+  /// What came over one topic.
+  struct Stream {
+    Queue queue;
+    LostMessages lost;
+    /// Lost messages are counted together with the message that shows the loss, so that the sums are right at
+    /// every instant.
+    std::uint64_t lost_count = 0;
+  };
 
+  Stream& stream(Input input) { return streams_.at(static_cast<std::size_t>(input)); }
+  Queue& queue(Input input) { return stream(input).queue; }
   void push(Queue& queue, core::Arrival&& arrival) { queue.push_back({next_order_++, std::move(arrival)}); }
+  /// Queues a message that the map can do without.
+  template <class T>
+  void push_optional(Input input, T&& message, std::int64_t arrival_ns);
   /// Queues a message. Returns whether it made a frame ready.
   bool enqueue(DetectionFrame&& frame, std::int64_t arrival_ns);
   bool enqueue(VehiclePose&& pose, std::int64_t arrival_ns);
@@ -66,28 +81,17 @@ class IngestionQueue {
   void note_source(const DetectionFrame& frame, std::int64_t arrival_ns);
   /// Forgets the one that has been silent for the longest time.
   void forget_a_source();
-  void note_frame(std::int64_t arrival_ns);
-  void note_pose(std::int64_t arrival_ns);
-  void count_objects();
+  /// Counts a message that arrived.
+  void note(Input input, std::int64_t arrival_ns);
 
   SyncConfig config_;
   GateConfig gate_;
   std::function<void()> frame_is_ready_;
   std::mutex mutex_;
   std::uint64_t next_order_ = 0;
-  Queue frames_;
-  Queue poses_;
-  Queue objects_;
+  std::array<Stream, kInputNames.size()> streams_;
   core::Readiness readiness_;
   std::vector<std::int64_t> ready_ns_;
-  LostMessages lost_frames_;
-  LostMessages lost_poses_;
-  LostMessages lost_objects_;
-  // Lost messages are counted together with the message that shows the loss, so that the sums are right at
-  // every instant.
-  std::uint64_t frames_lost_ = 0;
-  std::uint64_t poses_lost_ = 0;
-  std::uint64_t objects_lost_ = 0;
   core::Arrivals state_;  ///< without messages, which are in the queues
 };
 

@@ -161,4 +161,10 @@ std::string_view defect(const TrackedObjects& objects, const GateConfig& config)
   return has_doubles(objects.objects) ? "repeated_id" : std::string_view();
 }
 
+std::string_view defect(const NextTurn& turn, const GateConfig& config) {
+  if (!plausible_stamp(turn.stamp_ns)) return "stamp";
+  const bool is_length = turn.distance_m >= 0.0 && turn.distance_m <= config.max_coordinate_m;
+  return is_length ? std::string_view() : "distance";
+}
+
 }  // namespace laneloom::session

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "laneloom/config.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
@@ -71,5 +72,6 @@ class Gate {
 std::string_view defect(const DetectionFrame& frame, const GateConfig& config);
 std::string_view defect(const VehiclePose& pose, const GateConfig& config);
 std::string_view defect(const TrackedObjects& objects, const GateConfig& config);
+std::string_view defect(const NextTurn& turn, const GateConfig& config);
 
 }  // namespace laneloom::session

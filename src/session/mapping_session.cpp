@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "base/seconds.hpp"
@@ -11,7 +12,7 @@
 #include "sd_map/osm.hpp"
 #include "session/admission.hpp"
 #include "session/gate.hpp"
-#include "session/pending_objects.hpp"
+#include "session/pending_messages.hpp"
 #include "session/sensor_offsets.hpp"
 #include "session/source_agreement.hpp"
 #include "session/sources.hpp"
@@ -65,11 +66,14 @@ struct MappingSession::State {
         offsets(mapper_config.networks),
         synchroniser(c.sync),
         pending_objects(c),
+        pending_turns(c),
         mapper(mapper_config, sd_map::load_sd_map(c.sd_map)) {}
 
   std::string_view add(const VehiclePose& pose);
   std::string_view add(DetectionFrame&& frame, std::int64_t arrival_ns);
-  std::string_view add(TrackedObjects&& objects);
+  /// Keeps a message of `kind`, "objects" or "next_turns", until its frame comes.
+  template <class T>
+  void add(T&& message, const std::string& kind, PendingMessages<T>& pending);
   /// Whether a pose may follow `before`, after a pause of the poses or the service of at most `max_pause_s`.
   bool goes_on(const VehiclePose& pose, const StreamPoint& before) const {
     return follows(place(pose), before, gate_config, gate_config.max_stamp_step_s + max_pause_s);
@@ -77,19 +81,18 @@ struct MappingSession::State {
   void check_resumed(const VehiclePose& pose);
   void fuse_ready();
   void fuse(const SynchronisedFrame& synchronised);
-  void fuse_objects(std::int64_t stamp_ns);
+  template <class T>
+  void take_until(std::int64_t stamp_ns, const std::string& kind, PendingMessages<T>& pending);
   void reset();
   /// A counter appears with its first count.
   void count(const std::string& counter, std::size_t rise) {
     if (rise > 0) counters.add(counter, rise);
   }
-  void refuse_frames(std::string_view why, std::size_t number = 1) {
-    count("detections_refused_" + std::string(why), number);
+  /// `kind` is detections, poses, objects or next_turns.
+  void refuse(const std::string& kind, std::string_view why, std::size_t number = 1) {
+    count(kind + "_refused_" + std::string(why), number);
   }
   void count_moving(const TrackedObjects& objects);
-  void refuse_objects(std::string_view why, std::size_t number = 1) {
-    count("objects_refused_" + std::string(why), number);
-  }
 
   GateConfig gate_config;
   double max_pause_s;
@@ -98,7 +101,8 @@ struct MappingSession::State {
   SourceAgreement agreement;
   SensorOffsets offsets;
   Synchroniser synchroniser;
-  PendingObjects pending_objects;
+  PendingMessages<TrackedObjects> pending_objects;
+  PendingMessages<NextTurn> pending_turns;
   Mapper mapper;
   std::optional<std::int64_t> newest_stamp_ns;
   std::optional<std::int64_t> newest_arrival_ns;
@@ -151,25 +155,28 @@ std::string_view MappingSession::State::add(DetectionFrame&& frame, std::int64_t
   return {};
 }
 
-std::string_view MappingSession::State::add(TrackedObjects&& objects) {
-  if (const auto found = defect(objects, gate_config); !found.empty()) return found;
+template <class T>
+void MappingSession::State::add(T&& message, const std::string& kind, PendingMessages<T>& pending) {
+  std::string_view refusal = defect(message, gate_config);
   const auto newest_pose_ns = newest_pose ? std::optional(newest_pose->stamp_ns) : std::nullopt;
-  const std::string_view refusal = pending_objects.add(std::move(objects), newest_pose_ns);
-  if (const auto dropped = pending_objects.drop_excess()) counters.add("objects_dropped_queue_full", dropped);
-  return refusal;
+  if (refusal.empty()) refusal = pending.add(std::forward<T>(message), newest_pose_ns);
+  if (!refusal.empty()) refuse(kind, refusal);
+  count(kind + "_dropped_queue_full", pending.drop_excess());
 }
 
-/// Hands the objects until a stamp to the mapper. The poses until there have come.
-void MappingSession::State::fuse_objects(std::int64_t stamp_ns) {
+/// Hands the messages until a stamp to the mapper. The poses until there have come.
+template <class T>
+void MappingSession::State::take_until(std::int64_t stamp_ns, const std::string& kind,
+                                       PendingMessages<T>& pending) {
   Eigen::Isometry3d T_map_body;
-  while (const auto objects = pending_objects.take_until(stamp_ns)) {
-    if (synchroniser.pose_at(objects->stamp_ns, T_map_body) != PoseBuffer::Answer::found) {
-      refuse_objects("unsynchronised");
+  while (const auto message = pending.take_until(stamp_ns)) {
+    if (synchroniser.pose_at(message->stamp_ns, T_map_body) != PoseBuffer::Answer::found) {
+      refuse(kind, "unsynchronised");
       continue;
     }
-    mapper.add(*objects, T_map_body);
-    counters.add("objects_fused");
-    count_moving(*objects);
+    mapper.add(*message, T_map_body);
+    counters.add(kind + "_fused");
+    if constexpr (std::is_same_v<T, TrackedObjects>) count_moving(*message);
   }
 }
 
@@ -189,16 +196,17 @@ void MappingSession::State::fuse_ready() {
     has_begun = true;
     fuse(*frame);
   }
-  refuse_frames("unsynchronised", unsynchronised);
+  refuse("detections", "unsynchronised", unsynchronised);
 }
 
 void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
   const auto& frame = synchronised.pending.frame;
   if (!agreement.may_fuse(frame, synchronised.T_map_body, synchronised.pending.arrival_ns)) {
-    refuse_frames("contradictory");
+    refuse("detections", "contradictory");
     return;
   }
-  fuse_objects(frame.stamp_ns);
+  take_until(frame.stamp_ns, "objects", pending_objects);
+  take_until(frame.stamp_ns, "next_turns", pending_turns);
   const auto& map = mapper.update(frame, synchronised.T_map_body, observer);
   newest_stamp_ns = map.stamp_ns;
   newest_arrival_ns = synchronised.pending.arrival_ns;
@@ -219,8 +227,9 @@ void MappingSession::State::fuse(const SynchronisedFrame& synchronised) {
 
 /// Forgets the map, and the frames that belong to it.
 void MappingSession::State::reset() {
-  refuse_frames("reset", synchroniser.clear_frames());
-  refuse_objects("reset", pending_objects.clear());
+  refuse("detections", "reset", synchroniser.clear_frames());
+  refuse("objects", "reset", pending_objects.clear());
+  refuse("next_turns", "reset", pending_turns.clear());
   mapper.reset();
   agreement.forget();
   progress.lineage.clear();  // it tells of ids of the old map
@@ -237,21 +246,22 @@ MappingSession& MappingSession::operator=(MappingSession&&) noexcept = default;
 
 void MappingSession::add(const VehiclePose& pose) {
   const auto why = state_->add(pose);
-  if (!why.empty()) state_->counters.add("poses_refused_" + std::string(why));
+  if (!why.empty()) state_->refuse("poses", why);
 }
 
 void MappingSession::add(DetectionFrame frame, std::int64_t arrival_ns) {
   const auto why = state_->add(std::move(frame), arrival_ns);
-  if (!why.empty()) state_->refuse_frames(why);
+  if (!why.empty()) state_->refuse("detections", why);
 }
 
 void MappingSession::add(TrackedObjects objects) {
-  const auto why = state_->add(std::move(objects));
-  if (!why.empty()) state_->refuse_objects(why);
+  state_->add(std::move(objects), "objects", state_->pending_objects);
 }
 
+void MappingSession::add(NextTurn turn) { state_->add(std::move(turn), "next_turns", state_->pending_turns); }
+
 void MappingSession::expire(std::int64_t now_ns) {
-  state_->refuse_frames("unsynchronised", state_->synchroniser.expire(now_ns));
+  state_->refuse("detections", "unsynchronised", state_->synchroniser.expire(now_ns));
 }
 
 void MappingSession::fuse_while(std::function<bool()> may_go_on) {

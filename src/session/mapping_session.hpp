@@ -12,6 +12,7 @@
 #include "laneloom/counters.hpp"
 #include "laneloom/mapper.hpp"
 #include "laneloom/messages.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "session/source_agreement.hpp"
 
@@ -54,6 +55,9 @@ class MappingSession {
   void add(DetectionFrame frame, std::int64_t arrival_ns);
   /// Takes objects. They go into the map with the next fused frame that is not older than they are.
   void add(TrackedObjects objects);
+  /// Takes the next turn of the route. It leads the way of the frames that are fused from then on and not
+  /// older.
+  void add(NextTurn turn);
   /// Refuses the frames that have waited for their poses for too long.
   void expire(std::int64_t now_ns);
   /// Limits the fusion from now until the next call: after the first frame, a further one is begun only while
@@ -106,8 +110,9 @@ class MappingSession {
   /// mapper), lines_forgotten, sources_restarted, frames_dropped_queue_full, detections_refused_<reason>,
   /// poses_accepted, poses_refused_<reason>, objects_fused, objects_dropped_queue_full,
   /// objects_refused_<reason>, objects_believed, objects_without_heading and objects_doubted
-  /// (trails::MovingObjects), map_resets, pose_jumps. Every frame that was added is fused, refused, dropped
-  /// or pending, and so is every message of objects; every pose is accepted or refused.
+  /// (trails::MovingObjects), next_turns_fused, next_turns_dropped_queue_full, next_turns_refused_<reason>,
+  /// map_resets, pose_jumps. Every frame that was added is fused, refused, dropped or pending, and so is
+  /// every message of objects and turns; every pose is accepted or refused.
   const Counters& counters() const;
   /// The progress of all sources, by name.
   std::vector<SourceProgress> sources() const;

@@ -67,6 +67,25 @@ TEST(Convert, ObjectsSurvive) {
   }
 }
 
+TEST(Convert, TurnsSurvive) {
+  for (unsigned seed = 0; seed < kSeeds; ++seed) {
+    auto message = RandomMessages(seed).next_turn();
+    message.header().frame_id("");
+    EXPECT_TRUE(through_plain<NextTurn>(message, "map") == message) << seed;
+  }
+}
+
+TEST(Refuse, TurnsWithNumbersOrKindsThatAreNone) {
+  NextTurn turn;
+  auto message = RandomMessages(1).next_turn();
+  EXPECT_EQ(from_msg(message, "map", turn), "") << "whatever its frame";
+  message.distance_m(kNaN);
+  EXPECT_EQ(from_msg(message, "map", turn), "not_finite");
+  message = RandomMessages(1).next_turn();
+  message.turn(static_cast<msg::TurnKind>(77));
+  EXPECT_EQ(from_msg(message, "map", turn), "unknown_enum");
+}
+
 TEST(Convert, OfTooManyObjectsTheFirstOnesAreSent) {
   TrackedObjects objects;
   objects.objects.resize(msg::MAX_OBJECTS + 3);

@@ -188,6 +188,14 @@ msg::VehiclePose RandomMessages::vehicle_pose() {
   return m;
 }
 
+msg::NextTurn RandomMessages::next_turn() {
+  msg::NextTurn m;
+  m.header(header());
+  m.turn(one_of(msg::TurnKind::TURN_U));
+  m.distance_m(number());
+  return m;
+}
+
 msg::Objects RandomMessages::objects() {
   msg::Objects m;
   m.header(header());

@@ -16,6 +16,7 @@ class RandomMessages {
   msg::Detections detections();
   msg::VehiclePose vehicle_pose();
   msg::Objects objects();
+  msg::NextTurn next_turn();
   msg::LaneMap lane_map();
   msg::RoadMarkings road_markings();
   msg::ServiceStatus service_status();
@@ -24,6 +25,7 @@ class RandomMessages {
   void fill(msg::Detections& m) { m = detections(); }
   void fill(msg::VehiclePose& m) { m = vehicle_pose(); }
   void fill(msg::Objects& m) { m = objects(); }
+  void fill(msg::NextTurn& m) { m = next_turn(); }
   void fill(msg::LaneMap& m) { m = lane_map(); }
   void fill(msg::RoadMarkings& m) { m = road_markings(); }
   void fill(msg::ServiceStatus& m) { m = service_status(); }

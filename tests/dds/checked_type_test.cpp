@@ -51,8 +51,8 @@ class CheckedTypeTest : public ::testing::Test {
   typename TopicTraits<T>::Type type_;
 };
 
-using Types =
-    ::testing::Types<DetectionFrame, VehiclePose, TrackedObjects, PublishedMap, RoadMarkings, ServiceStatus>;
+using Types = ::testing::Types<DetectionFrame, VehiclePose, TrackedObjects, NextTurn, PublishedMap,
+                               RoadMarkings, ServiceStatus>;
 TYPED_TEST_SUITE(CheckedTypeTest, Types);
 
 TYPED_TEST(CheckedTypeTest, WhatIsWrittenIsRead) {

@@ -155,18 +155,18 @@ std::string rights(const dds::Participant& participant) {
 
 TEST(Security, EachIdentityMayDoWhatItNeeds) {
   const Identities identities;
-  // Detections, poses, objects, lane map, road markings, status.
+  // Detections, poses, objects, next turn, lane map, road markings, status.
   const std::map<std::string, std::vector<std::string>> expected{
-      {"service", {"r", "r", "r", "w", "w", "wr"}}, {"perception", {"w", "", "", "", "", ""}},
-      {"odometry", {"", "w", "", "", "", ""}},      {"tracking", {"", "", "w", "", "", ""}},
-      {"pnc", {"", "", "", "r", "r", "r"}},         {"observer", {"r", "r", "r", "r", "r", "r"}},
-      {"simulator", {"w", "w", "w", "r", "", ""}}};
+      {"service", {"r", "r", "r", "r", "w", "w", "wr"}}, {"perception", {"w", "", "", "", "", "", ""}},
+      {"odometry", {"", "w", "", "", "", "", ""}},       {"tracking", {"", "", "w", "", "", "", ""}},
+      {"navigation", {"", "", "", "w", "", "", ""}},     {"pnc", {"", "", "", "", "r", "r", "r"}},
+      {"observer", {"r", "r", "r", "r", "r", "r", "r"}}, {"simulator", {"w", "w", "w", "w", "r", "", ""}}};
   for (const auto& [identity, wanted] : expected) {
     const dds::Participant participant(identities.as(identity, private_config()), identity);
-    const std::vector<std::string> is{
-        rights<DetectionFrame>(participant), rights<VehiclePose>(participant),
-        rights<TrackedObjects>(participant), rights<PublishedMap>(participant),
-        rights<RoadMarkings>(participant),   rights<ServiceStatus>(participant)};
+    const std::vector<std::string> is{rights<DetectionFrame>(participant), rights<VehiclePose>(participant),
+                                      rights<TrackedObjects>(participant), rights<NextTurn>(participant),
+                                      rights<PublishedMap>(participant),   rights<RoadMarkings>(participant),
+                                      rights<ServiceStatus>(participant)};
     EXPECT_EQ(is, wanted) << identity;
   }
 }

@@ -1,5 +1,6 @@
 #include "laneloom/dds/cdr.hpp"
 #include "laneloom/messages.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "memory_file.hpp"
 
@@ -21,7 +22,7 @@ void decode(std::span<const std::uint8_t> bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::span<const std::uint8_t> bytes(data + 1, size - 1);
-  switch (data[0] % 6) {
+  switch (data[0] % 7) {
     case 0:
       decode<laneloom::DetectionFrame>(bytes);
       break;
@@ -36,6 +37,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 4:
       decode<laneloom::TrackedObjects>(bytes);
+      break;
+    case 5:
+      decode<laneloom::NextTurn>(bytes);
       break;
     default:
       decode<laneloom::ServiceStatus>(bytes);

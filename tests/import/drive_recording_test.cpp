@@ -60,7 +60,7 @@ TEST(DriveRecording, AServiceFusesAllObjects) {
     objects.push_back({.stamp_ns = kSecond_ns + ms * 1'000'000, .objects = {{.id = 7}}});
     if (ms % 200 != 50) frames.push_back(frame(objects.back().stamp_ns));
   }
-  write_drive(folder.file("drive.mcap"), poses(10), frames, objects);
+  write_drive(folder.file("drive.mcap"), poses(10), frames, {.objects = objects});
   recording::RecordingReader reader(folder.file("drive.mcap"));
   session::MappingSession session{Config{}};
   std::vector<std::uint64_t> sequences;

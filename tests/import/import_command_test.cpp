@@ -215,9 +215,11 @@ TEST_F(ImportCommand, ObjectsInTheMapFrameAreTakenToTheBodyFrame) {
                              .objects = {{.id = 7, .position = {5, 10, 0}, .heading = {0, 1, 0}}},
                              .in_map_frame = true},
               stamp_ns);
+    out.write(NextTurn{.stamp_ns = stamp_ns, .turn = Linkage::Turn::left, .distance_m = 40.0}, stamp_ns);
   }
   out.close();
   ASSERT_TRUE(done("frames map_frame.mcap --out drive.mcap"));
+  EXPECT_EQ(messages<NextTurn>("drive.mcap").size(), 2U);
   const auto found = messages<TrackedObjects>("drive.mcap");
   ASSERT_EQ(found.size(), 1U) << "the other ones have no poses around them";
   EXPECT_FALSE(found[0].in_map_frame);

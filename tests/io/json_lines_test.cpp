@@ -89,6 +89,22 @@ TEST(FrameJson, ObjectsAreReadAsTheyWereWritten) {
   EXPECT_FALSE(frame_from_json(to_json_line(record)).objects) << "there is no tracker";
 }
 
+TEST(FrameJson, ATurnIsReadAsItWasWritten) {
+  FrameRecord record = full_frame();
+  record.next_turn = NextTurn{.turn = Linkage::Turn::right, .distance_m = 62.5};
+  const FrameRecord read = frame_from_json(to_json_line(record));
+  ASSERT_TRUE(read.next_turn);
+  EXPECT_EQ(read.next_turn->stamp_ns, record.frame.stamp_ns);
+  EXPECT_EQ(read.next_turn->session_id, UINT64_MAX);
+  EXPECT_EQ(read.next_turn->turn, Linkage::Turn::right);
+  EXPECT_EQ(read.next_turn->distance_m, 62.5);
+  record.next_turn.reset();
+  EXPECT_FALSE(frame_from_json(to_json_line(record)).next_turn);
+  const std::string begin = R"({"t":1.5,"pose":[0,0,0,0,0,0,1],"detections":[],"next_turn":)";
+  for (const char* turn : {R"({"turn":"left"})", R"({"distance":3})", R"({"turn":"back","distance":3})", "3"})
+    EXPECT_THROW(frame_from_json(begin + turn + "}"), std::runtime_error) << turn;
+}
+
 TEST(FrameJson, OfAnObjectOnlyIdAndPositionMustBeThere) {
   const auto line = [](const std::string& object) {
     return R"({"t":1.5,"pose":[0,0,0,0,0,0,1],"detections":[],"objects":[)" + object + "]}";

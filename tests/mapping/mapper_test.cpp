@@ -72,6 +72,22 @@ TEST_P(EitherMapper, TheWayLeadsAheadFromBesideTheVehicle) {
   EXPECT_FALSE(drive.step({}).way) << "in no lane";
 }
 
+TEST_P(EitherMapper, TheTurnOfTheRouteLeadsTheWayUntilItsPlaceIsPast) {
+  Drive drive(GetParam());
+  drive.steps(40);
+  const std::string saved = drive.mapper.save();
+  drive.mapper.add(NextTurn{.turn = Linkage::Turn::left, .distance_m = 10.0}, test::at(drive.x));
+  EXPECT_NE(drive.mapper.save(), saved) << "a service that follows knows of it";
+  Drive other(GetParam());
+  other.mapper.load(drive.mapper.save());
+  other.x = drive.x;
+  other.number = drive.number;
+  for (Drive* each : {&drive, &other}) {
+    EXPECT_EQ(each->steps(20).way.value_or(Way{}).wish, WayWish::left);
+    EXPECT_EQ(each->steps(10).way.value_or(Way{}).wish, WayWish::straight);
+  }
+}
+
 TEST_P(EitherMapper, LanesTellWhatTheirEvidenceIs) {
   Drive drive(GetParam());
   const LocalMap& map = drive.steps(40);

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 import laneloom
-from laneloom import Config, Detection, Frame, Mapper, Objects, Pose, TrackedObject, Truth, TruthLane, TruthMarking
+from laneloom import Config, Detection, Frame, Mapper, NextTurn, Objects, Pose, TrackedObject, Truth, TruthLane, TruthMarking
 
 LINE = np.array([[0.0, 1.0, 0.0], [5.0, 1.0, 0.0]])
 LONG = np.zeros((1025, 3))
@@ -66,6 +66,8 @@ WRONG = [
     (lambda: Objects(1, 2 * [TrackedObject(1, [0, 0, 0])]), ValueError,
      "Objects: the service would refuse it: repeated_id"),
     (lambda: Objects(1, [], in_map_frame=1), TypeError, "in_map_frame: must be a bool, not int"),
+    (lambda: NextTurn(1, "back", 3), ValueError, "turn: must be one of unknown, straight, left, right, u_turn"),
+    (lambda: NextTurn(1, "left", -3), ValueError, "NextTurn: the service would refuse it: distance"),
     (lambda: Pose([0, 0], LEVEL), ValueError, "position: must have the shape (3,), not (2,)"),
     (lambda: Pose([0, 0, 0], [0, 0, 0, 2]), ValueError, "Pose: the service would refuse it: not_a_rotation"),
     (lambda: Pose([1e9, 0, 0], LEVEL), ValueError, "Pose: the service would refuse it: coordinate"),

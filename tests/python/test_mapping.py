@@ -172,6 +172,18 @@ def test_maps_with_objects_are_those_of_the_program(tmp_path):
     assert mapped([]) != mapped(objects)
 
 
+def test_the_way_makes_the_next_turn(tmp_path):
+    road = tmp_path / "road.frames.jsonl"
+    run("simulate", "--scenario", "straight", "--duration", 3, "--frames", road)
+    mapper = laneloom.Mapper()
+    for frame, pose in laneloom.read_frames(road):
+        mapper.update(frame, pose)
+    assert mapper.map.way.wish == "straight"
+    mapper.add(laneloom.NextTurn(frame.stamp_ns, "left", distance=80), pose)
+    mapper.update(frame, pose)
+    assert mapper.map.way.wish == "left"
+
+
 def test_figures_are_those_of_the_program(drive, truth, frames, maps):
     laneloom.write_maps(drive.folder / "maps.jsonl", maps)
     run("evaluate", "--truth", drive.truth, "--frames", drive.frames, "--map", drive.folder / "maps.jsonl",

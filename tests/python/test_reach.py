@@ -25,6 +25,7 @@ def objects(frames, maps, truth, changing):
     frame, pose = frames[-1]
     car = laneloom.TrackedObject(7, [1, 2, 3], [0, 1, 0], "bus", 4, existence=0.5, stddev=0.25, length=9, width=2.5)
     yield from (car, laneloom.Objects(5, [car], in_map_frame=True, sequence=3, session_id=4))
+    yield laneloom.NextTurn(5, "left", 80)
     yield from (frame, pose, frame.detections[0], truth, truth.lanes[0], truth.markings[0], maps[-1])
     for parts in ("lanes", "boundaries", "markings", "lineage"):
         yield next(getattr(m, parts)[0] for m in maps if getattr(m, parts))

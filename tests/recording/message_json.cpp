@@ -111,6 +111,9 @@ json json_of(const msg::VehiclePose& m) {
   return {{"header", of(m.header())}, {"pose", of(m.pose())}, {"covariance", of(m.covariance())}};
 }
 
+json json_of(const msg::NextTurn& m) {
+  return {{"header", of(m.header())}, {"turn", of(m.turn())}, {"distance_m", m.distance_m()}};
+}
 json json_of(const msg::Objects& m) { return {{"header", of(m.header())}, {"objects", of(m.objects())}}; }
 
 json json_of(const msg::LaneMap& m) {

@@ -36,7 +36,8 @@ MessageOf<T> random_message(unsigned seed) {
     message.header().frame_id(kMapFrame);
     message.covariance().clear();
   }
-  if constexpr (std::is_same_v<T, ServiceStatus>) message.header().frame_id("");
+  if constexpr (std::is_same_v<T, ServiceStatus> || std::is_same_v<T, NextTurn>)
+    message.header().frame_id("");
   return message;
 }
 
@@ -68,8 +69,8 @@ class RecordingOf : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-using Types =
-    ::testing::Types<DetectionFrame, VehiclePose, TrackedObjects, PublishedMap, RoadMarkings, ServiceStatus>;
+using Types = ::testing::Types<DetectionFrame, VehiclePose, TrackedObjects, NextTurn, PublishedMap,
+                               RoadMarkings, ServiceStatus>;
 TYPED_TEST_SUITE(RecordingOf, Types);
 
 TYPED_TEST(RecordingOf, EveryFieldIsReadAgain) {

@@ -84,11 +84,12 @@ TEST_F(Faults, RefusedMessagesAreNotMissing) {
     }
   };
   drive_.send_frames = lose<DetectionFrame>;
-  refuse(20, [this](std::int64_t now_ns) { drive_.queue().refuse_detections("wrong_frame", now_ns); });
+  refuse(20,
+         [this](std::int64_t now_ns) { drive_.queue().refuse(Input::detections, "wrong_frame", now_ns); });
   EXPECT_EQ(drive_.state(), "STALE unsynchronised outdated");
   recover();
   drive_.send_poses = lose<VehiclePose>;
-  refuse(20, [this](std::int64_t now_ns) { drive_.queue().refuse_pose("wrong_frame", now_ns); });
+  refuse(20, [this](std::int64_t now_ns) { drive_.queue().refuse(Input::poses, "wrong_frame", now_ns); });
   EXPECT_EQ(drive_.state(), "STALE unsynchronised");
   recover();
 }

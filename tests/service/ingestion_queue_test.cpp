@@ -35,6 +35,8 @@ std::string text(const std::vector<core::Arrival>& arrivals) {
       result += "f" + std::to_string(f->sequence);
     } else if (const auto* o = std::get_if<TrackedObjects>(&message)) {
       result += "o" + std::to_string(o->sequence);
+    } else if (const auto* t = std::get_if<NextTurn>(&message)) {
+      result += "t" + std::to_string(t->sequence);
     } else {
       result += "p" + std::to_string(std::get<VehiclePose>(message).sequence);
     }
@@ -81,9 +83,9 @@ TEST(IngestionQueue, KeepsObjectsInTheOrderOfArrivalWithinTheirBound) {
   for (std::uint64_t i = 2; i < 5; ++i) queue.push(objects(i), 0);
   queue.push(frame(5), 0);
   queue.push(TrackedObjects{.stamp_ns = -1}, 0);
-  queue.refuse_objects("malformed");
-  queue.number_objects({3}, 1);
-  queue.number_objects({3}, 4);
+  queue.refuse(Input::objects, "malformed", 0);
+  queue.number(Input::objects, {3}, 1);
+  queue.number(Input::objects, {3}, 4);
   const auto before = queue.take();
   EXPECT_EQ(text(before.messages), "p1 o3 o4 f5");
   EXPECT_EQ(before.counters["objects_received"], 5U);
@@ -92,6 +94,21 @@ TEST(IngestionQueue, KeepsObjectsInTheOrderOfArrivalWithinTheirBound) {
   EXPECT_EQ(before.counters["objects_refused_malformed"], 1U);
   queue.push(objects(6), 0);
   EXPECT_EQ(queue.take().counters["objects_lost"], 2U) << "with the message that shows the loss";
+}
+
+TEST(IngestionQueue, KeepsTurnsApartFromObjects) {
+  IngestionQueue queue(capacities(2, 8));
+  for (std::uint64_t i = 1; i < 4; ++i) queue.push(NextTurn{.stamp_ns = 1, .sequence = i}, 0);
+  queue.push(objects(4), 0);
+  queue.push(NextTurn{.stamp_ns = 1, .distance_m = -1.0}, 0);
+  queue.number(Input::objects, {3}, 1);
+  queue.number(Input::next_turns, {3}, 9);
+  const auto arrivals = queue.take();
+  EXPECT_EQ(text(arrivals.messages), "t2 t3 o4");
+  EXPECT_EQ(arrivals.counters["next_turns_received"], 4U);
+  EXPECT_EQ(arrivals.counters["next_turns_dropped_queue_full"], 1U);
+  EXPECT_EQ(arrivals.counters["next_turns_refused_distance"], 1U);
+  EXPECT_EQ(arrivals.counters["next_turns_lost"], 0U) << "each has numbers of its own";
 }
 
 TEST(IngestionQueue, DropsTheOldestOfAKindAndCountsIt) {
@@ -147,9 +164,9 @@ TEST(IngestionQueue, RefusesAFrameWholeForADefectInWhatWouldBeLeftOut) {
 
 TEST(IngestionQueue, CountsWhatIsRefusedByReason) {
   IngestionQueue queue(capacities(2, 2));
-  queue.refuse_detections("malformed", 3);
-  queue.refuse_detections("malformed", 5);
-  queue.refuse_pose("wrong_frame", 4);
+  queue.refuse(Input::detections, "malformed", 3);
+  queue.refuse(Input::detections, "malformed", 5);
+  queue.refuse(Input::poses, "wrong_frame", 4);
   const auto arrivals = queue.take();
   const auto& counters = arrivals.counters;
   EXPECT_EQ(counters["detections_received"], 2U);
@@ -213,11 +230,11 @@ TEST(IngestionQueue, KeepsTheSourcesThatWereHeardLast) {
 
 TEST(IngestionQueue, CountsWhatNeverCame) {
   IngestionQueue queue(capacities(2, 2));
-  queue.number_detections({1}, 7);
-  queue.number_detections({1}, 11);
-  for (const std::uint64_t number : {1U, 6U, 8U}) queue.number_pose({2}, number);
+  queue.number(Input::detections, {1}, 7);
+  queue.number(Input::detections, {1}, 11);
+  for (const std::uint64_t number : {1U, 6U, 8U}) queue.number(Input::poses, {2}, number);
   EXPECT_EQ(queue.take().counters["detections_lost"], 0U) << "before the message that shows it";
-  queue.refuse_detections("malformed", 1);
+  queue.refuse(Input::detections, "malformed", 1);
   queue.push(pose(8), 0);
   const auto counters = queue.take().counters;
   EXPECT_EQ(counters["detections_lost"], 3U);
@@ -232,7 +249,7 @@ TEST(IngestionQueue, CountsExactlyWhileThreadsPush) {
   const auto pushing = [&] {
     for (std::uint64_t i = 0; i < kEach; ++i) {
       queue.push(frame(i), 1);
-      if (i % 3 == 0) queue.refuse_detections("malformed", 1);
+      if (i % 3 == 0) queue.refuse(Input::detections, "malformed", 1);
     }
     --running;
   };

@@ -223,5 +223,13 @@ TEST(Defect, OfObjects) {
   EXPECT_EQ(defect(doubles, GateConfig{}), "");
 }
 
+TEST(Defect, OfTurns) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(defect(NextTurn{.stamp_ns = 5}, GateConfig{}), "") << "it is here";
+  EXPECT_EQ(defect(NextTurn{}, GateConfig{}), "stamp");
+  for (const double distance_m : {-0.1, nan, 2e7})
+    EXPECT_EQ(defect(NextTurn{.stamp_ns = 5, .distance_m = distance_m}, GateConfig{}), "distance");
+}
+
 }  // namespace
 }  // namespace laneloom::session

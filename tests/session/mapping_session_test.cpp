@@ -477,5 +477,29 @@ TEST_F(MappingSessionTest, EveryMessageOfObjectsIsAccountedFor) {
                                                           {"objects_refused_unsynchronised", 1}}));
 }
 
+TEST_F(MappingSessionTest, ATurnLeadsTheWayFromItsStampOn) {
+  const auto turn = [](int stamp_ms, double distance_m) {
+    return NextTurn{.stamp_ns = stamp_ms * kMs, .turn = Linkage::Turn::left, .distance_m = distance_m};
+  };
+  const auto wish = [&] { return session_.map().way ? session_.map().way->wish : WayWish::straight; };
+  session_.add(turn(9'900, 500.0));  // before the first pose
+  drive(10'000, 12'000);
+  EXPECT_EQ(wish(), WayWish::straight);
+  session_.add(turn(12'450, 500.0));
+  session_.add(turn(12'450, 500.0));
+  session_.add(turn(12'440, -1.0));
+  drive(12'000, 12'400);
+  EXPECT_EQ(wish(), WayWish::straight) << "it waits for a frame that is not older";
+  drive(12'400, 12'600);
+  EXPECT_EQ(wish(), WayWish::left);
+  std::map<std::string, std::uint64_t> counts;
+  for (const auto& [name, count] : session_.counters().values())
+    if (name.starts_with("next_turns_")) counts[name] = count;
+  EXPECT_EQ(counts, (std::map<std::string, std::uint64_t>{{"next_turns_fused", 1},
+                                                          {"next_turns_refused_distance", 1},
+                                                          {"next_turns_refused_repeated", 1},
+                                                          {"next_turns_refused_unsynchronised", 1}}));
+}
+
 }  // namespace
 }  // namespace laneloom::session

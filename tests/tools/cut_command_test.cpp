@@ -99,7 +99,7 @@ TEST_F(CutCommand, ObjectsOfARecordingAreInItsLines) {
   }
 }
 
-TEST_F(CutCommand, ObjectsBetweenFramesGoOnToTheNextOne) {
+TEST_F(CutCommand, ObjectsAndTurnsBetweenFramesGoOnToTheNextOne) {
   {
     recording::RecordingWriter writer(file("drive.mcap"));
     const auto at = [](int tenths) { return std::int64_t{1'000'000'000} + tenths * 100'000'000; };
@@ -112,6 +112,8 @@ TEST_F(CutCommand, ObjectsBetweenFramesGoOnToTheNextOne) {
                                                .heading = Point::UnitX(),
                                                .speed_mps = 20}}},
                    at(4));
+    for (const int i : {0, 1})
+      writer.write(NextTurn{.stamp_ns = at(i), .turn = Linkage::Turn::left, .distance_m = 50.0}, at(4));
     for (const int i : {2, 3})
       writer.write(DetectionFrame{.stamp_ns = at(i), .sequence = static_cast<std::uint64_t>(i)}, at(4));
     writer.close();
@@ -123,7 +125,10 @@ TEST_F(CutCommand, ObjectsBetweenFramesGoOnToTheNextOne) {
   ASSERT_EQ(first->objects->objects.size(), 1u) << "the newest alone";
   EXPECT_TRUE(first->objects->objects[0].position.isApprox(Point(31, 2, 0)))
       << "by 2 m, and the vehicle by 1 m";
+  ASSERT_TRUE(first->next_turn);
+  EXPECT_NEAR(first->next_turn->distance_m, 49.0, 1e-9) << "the vehicle has come nearer";
   EXPECT_FALSE(second->objects) << "each is told once";
+  EXPECT_FALSE(second->next_turn);
 }
 
 TEST_F(CutCommand, ARecordingBecomesLinesAndLinesARecording) {

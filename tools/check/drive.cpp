@@ -32,6 +32,7 @@ Drive read_drive(replay::MessageSource& source, const std::function<void(double 
       drive.frames[frame->source].push_back(std::move(*frame));
     if (auto* objects = std::get_if<TrackedObjects>(&message->message))
       drive.objects.push_back(std::move(*objects));
+    if (const auto* turn = std::get_if<NextTurn>(&message->message)) drive.next_turns.push_back(*turn);
     on_step(source.progress());
   }
   return drive;

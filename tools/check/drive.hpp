@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "check/correction.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 #include "replay/message_source.hpp"
@@ -20,10 +21,11 @@ struct Drive {
   std::vector<VehiclePose> poses;                             ///< in the order of the file
   std::map<std::string, std::vector<DetectionFrame>> frames;  ///< by source, in the order of the file
   std::vector<TrackedObjects> objects;                        ///< in the order of the file
+  std::vector<NextTurn> next_turns;                           ///< in the order of the file
 };
 
-/// Reads all detections, poses and objects. Calls on_step() for each message with the share of the file that
-/// was read, 0..1.
+/// Reads all detections, poses, objects and turns. Calls on_step() for each message with the share of the
+/// file that was read, 0..1.
 Drive read_drive(
     replay::MessageSource& source,
     const std::function<void(double share)>& on_step = [](double /*share*/) {});

@@ -139,6 +139,31 @@ class ObjectsOfFrames {
   std::deque<TrackedObjects> seen_;  ///< in the map frame; stamps ascend
 };
 
+/// The turns that a recording tells, which lines tell at the stamps of frames.
+class TurnsOfFrames {
+ public:
+  explicit TurnsOfFrames(const std::string& recording) {
+    evaluation::for_each_next_turn(recording, [&](const NextTurn& turn, const Eigen::Isometry3d& T_map_body) {
+      told_.emplace_back(turn, T_map_body.translation());
+    });
+  }
+
+  /// The newest since the last call, as it is from the vehicle's place at this stamp. Stamps must ascend.
+  std::optional<NextTurn> at(std::int64_t stamp_ns, const Point& place) {
+    std::optional<NextTurn> newest;
+    for (; !told_.empty() && told_.front().first.stamp_ns <= stamp_ns; told_.pop_front()) {
+      const auto& [turn, told_at] = told_.front();
+      newest = turn;
+      newest->distance_m = std::max(0.0, turn.distance_m - (place - told_at).head<2>().norm());
+      newest->stamp_ns = stamp_ns;
+    }
+    return newest;
+  }
+
+ private:
+  std::deque<std::pair<NextTurn, Point>> told_;  ///< with the vehicle's place; stamps ascend
+};
+
 /// When the first message of a recording came, by the clock of the stamps: as long before the first T as it
 /// came before it.
 template <class T>
@@ -153,18 +178,21 @@ std::optional<std::int64_t> begin_of(const std::string& recording) {
   return std::nullopt;
 }
 
-/// Writes the frames of a recording with their poses and objects.
+/// Writes the frames of a recording with their poses, objects and turns.
 void cut_frames(const CutOptions& options, Part& part, io::JsonLinesWriter& out) {
   ObjectsOfFrames objects(options.drive);
+  TurnsOfFrames turns(options.drive);
   for_each_frame(options.drive, options.strict,
                  [&](const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) {
                    std::optional<TrackedObjects> seen = objects.at(frame.stamp_ns);
+                   const auto turn = turns.at(frame.stamp_ns, T_map_body.translation());
                    if (!part.holds(frame.stamp_ns)) return;
                    out.write(io::FrameRecord{frame,
                                              {.stamp_ns = frame.stamp_ns,
                                               .position = T_map_body.translation(),
                                               .orientation = Eigen::Quaterniond(T_map_body.linear())},
-                                             std::move(seen)});
+                                             std::move(seen),
+                                             turn});
                  });
 }
 

@@ -176,7 +176,7 @@ void write_log(const std::filesystem::path& log, const LogOptions& options, cons
   const std::string truth = file_of_log(options.truth, options.directory, log, ".truth.json");
   const auto write_drive = [&] {
     if (out.empty()) return;
-    warn_of(out, imports::write_drive(out, content.poses, {}, content.sweeps, options.strict));
+    warn_of(out, imports::write_drive(out, content.poses, {}, {.objects = content.sweeps}, options.strict));
     fmt::print("{}: {} poses, {} sweeps with objects\n", log.string(), content.poses.size(),
                content.sweeps.size());
   };

@@ -84,9 +84,10 @@ void import_frames(const ImportFramesOptions& options) {
   correct(drive.objects, track, options.correction);
   without_pose += imports::drop_frames_without_pose(frames, poses);
   if (frames.empty()) throw std::runtime_error(options.drive + ": no frame is within the poses");
-  warn_of(options.out, imports::write_drive(options.out, poses, frames, drive.objects, options.strict));
+  const imports::OtherInputs others{std::move(drive.objects), std::move(drive.next_turns)};
+  warn_of(options.out, imports::write_drive(options.out, poses, frames, others, options.strict));
   fmt::print("{}: {} frames, {} poses, {} messages of objects\n", options.out, frames.size(), poses.size(),
-             drive.objects.size());
+             others.objects.size());
   if (without_pose > 0) fmt::print("left out: {} frames without poses around them\n", without_pose);
 }
 

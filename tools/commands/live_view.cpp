@@ -28,6 +28,7 @@ LiveView::LiveView(const DdsConfig& dds, const RangeConfig& range)
       detections_(participant_, into_inbox<DetectionFrame>()),
       poses_(participant_, into_inbox<VehiclePose>()),
       objects_(participant_, into_inbox<TrackedObjects>()),
+      next_turns_(participant_, into_inbox<NextTurn>()),
       maps_(participant_, maps_into_inbox()),
       markings_(participant_, into_inbox<RoadMarkings>()),
       statuses_(participant_, into_inbox<ServiceStatus>()) {}

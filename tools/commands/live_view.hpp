@@ -65,6 +65,7 @@ class LiveView {
   dds::Reader<DetectionFrame> detections_;
   dds::Reader<VehiclePose> poses_;
   dds::Reader<TrackedObjects> objects_;
+  dds::Reader<NextTurn> next_turns_;
   dds::Reader<PublishedMap> maps_;
   dds::Reader<RoadMarkings> markings_;
   dds::Reader<ServiceStatus> statuses_;

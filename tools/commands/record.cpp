@@ -106,7 +106,8 @@ class Recorder {
         maps_(participant_, into_inbox(2)),
         markings_(participant_, into_inbox(3)),
         status_(participant_, into_inbox(4)),
-        objects_(participant_, into_inbox(5)) {
+        objects_(participant_, into_inbox(5)),
+        next_turns_(participant_, into_inbox(6)) {
     if (options.config.ros2.enabled) listen_to_nodes(options.config);
     fmt::print("Recording to {}\n", writer_.path());
     std::fflush(stdout);
@@ -156,7 +157,8 @@ class Recorder {
         config, "laneloom record for ROS 2",
         ros2::Inputs{.detections = as_own<DetectionFrame>(0, config.dds.map_frame_id),
                      .poses = as_own<VehiclePose>(1, config.dds.map_frame_id),
-                     .objects = as_own<TrackedObjects>(5, config.dds.map_frame_id)});
+                     .objects = as_own<TrackedObjects>(5, config.dds.map_frame_id),
+                     .next_turns = as_own<NextTurn>(6, config.dds.map_frame_id)});
   }
   template <class T>
   dds::ReaderCallbacks<T> as_own(std::size_t topic, const std::string& map_frame_id) {
@@ -186,6 +188,7 @@ class Recorder {
   dds::RawReader<RoadMarkings> markings_;
   dds::RawReader<ServiceStatus> status_;
   dds::RawReader<TrackedObjects> objects_;
+  dds::RawReader<NextTurn> next_turns_;
   std::mutex refused_mutex_;
   Counters refused_;                       ///< messages of nodes of ROS 2
   std::unique_ptr<ros2::Listener> nodes_;  ///< null: ros2 is not enabled

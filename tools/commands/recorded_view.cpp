@@ -119,7 +119,7 @@ std::unique_ptr<Explainer> explainer_of(const std::string& path) {
 
 bool is_input(const recording::AnyMessage& message) {
   return std::holds_alternative<DetectionFrame>(message) || std::holds_alternative<VehiclePose>(message) ||
-         std::holds_alternative<TrackedObjects>(message);
+         std::holds_alternative<TrackedObjects>(message) || std::holds_alternative<NextTurn>(message);
 }
 
 /// Returns whether the recording has a map. If not, there is nothing of it in the store.

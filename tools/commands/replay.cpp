@@ -175,17 +175,17 @@ void replay(ReplayOptions& options) {
   end_with(kFailed);
 }
 
-/// Whether the input may have objects. Standard input can only be read once.
-bool may_have_objects(const ReplayOptions& options) {
-  return options.in == io::kStandard ||
-         replay::has_objects(*replay::open_messages(options.in, options.dds.map_frame_id));
+/// The topics that the input may have. Standard input can only be read once.
+replay::OptionalTopics topics_of(const ReplayOptions& options) {
+  if (options.in == io::kStandard) return {.objects = true, .next_turns = true};
+  return replay::optional_topics(*replay::open_messages(options.in, options.dds.map_frame_id));
 }
 
 void play(const ReplayOptions& options) {
   catch_stop_signals();
   const std::unique_ptr<replay::MessageSource> source =
       replay::open_messages(options.in, options.dds.map_frame_id, {.strict = options.strict});
-  replay::Player player(options.dds, options.speed_up, may_have_objects(options));
+  replay::Player player(options.dds, options.speed_up, topics_of(options));
   while (player.readers() < options.readers)
     if (!sleep_until(SteadyClock::now() + std::chrono::milliseconds(20))) return;
   if (options.readers > 0 && !sleep_until(SteadyClock::now() + kDiscovery)) return;

@@ -31,12 +31,15 @@ constexpr std::array kIncidents{
     Incident{"detections_lost", "detections were lost on the way", kNetwork},
     Incident{"poses_lost", "poses were lost on the way", kNetwork},
     Incident{"objects_lost", "messages of objects were lost on the way", kNetwork},
+    Incident{"next_turns_lost", "messages of the next turn were lost on the way", kNetwork},
     Incident{"frames_dropped_queue_full", "frames were dropped from a full queue (sync.queue_capacity)",
              kLoad},
     Incident{"poses_dropped_queue_full", "poses were dropped from a full queue (sync.pose_queue_capacity)",
              kLoad},
     Incident{"objects_dropped_queue_full",
              "messages of objects were dropped from a full queue (sync.queue_capacity)", kLoad},
+    Incident{"next_turns_dropped_queue_full",
+             "messages of the next turn were dropped from a full queue (sync.queue_capacity)", kLoad},
     Incident{"frames_thinned",
              "frames had more markings than gate.max_frame_detections and max_frame_length_m admit",
              "Send what the network trusts, within its range; the least trusted and farthest were left out."},
@@ -109,7 +112,7 @@ void judge_state(const ServiceStatus& status, Findings& found) {
   }
 }
 
-/// `subject` is detections, poses, objects or datagrams.
+/// `subject` is detections, poses, objects, next_turns or datagrams.
 Finding refusal(std::string_view by_whom, std::string_view subject, std::string_view reason,
                 std::uint64_t count) {
   const bool at_the_door = subject == "datagrams";
@@ -184,6 +187,7 @@ Findings incident_findings(const Observed& seen) {
     judge_own("detections", seen.detections, found);
     judge_own("poses", seen.poses, found);
     judge_own("objects", seen.objects, found);
+    judge_own("next_turns", seen.next_turns, found);
   }
   for (const ServiceObserved& service : seen.services) {
     const auto rises = status::rises(service.last, service.first);

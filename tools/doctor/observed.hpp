@@ -64,7 +64,7 @@ struct Observed {
   double duration_s = 0.0;
   std::vector<dds::Peer> participants;  ///< without those of doctors
   std::vector<dds::Endpoint> endpoints;
-  InputObserved detections, poses, objects;
+  InputObserved detections, poses, objects, next_turns;
   std::map<std::string, InputObserved> sources;  ///< detections that are well formed, by their source
   std::vector<ServiceObserved> services;         ///< of this vehicle, by session
   std::vector<int> listening_domains;            ///< domains that processes of this host are in

@@ -74,7 +74,13 @@ Observer::Observer(const DdsConfig& config)
       poses_(participant_,
              [this](const dds::WriterId& writer, Bytes&& message) { receive_pose(writer, message); }),
       objects_(participant_,
-               [this](const dds::WriterId& writer, Bytes&& message) { receive_objects(writer, message); }),
+               [this](const dds::WriterId& writer, Bytes&& message) {
+                 receive_optional<TrackedObjects>(objects_stream_, writer, message);
+               }),
+      next_turns_(participant_,
+                  [this](const dds::WriterId& writer, Bytes&& message) {
+                    receive_optional<NextTurn>(next_turns_stream_, writer, message);
+                  }),
       statuses_(participant_, {.sample = [this](ServiceStatus&& status) { receive(std::move(status)); }}) {}
 
 void Observer::receive_detections(const dds::WriterId& writer, const Bytes& message) {
@@ -107,12 +113,13 @@ void Observer::receive_pose(const dds::WriterId& writer, const Bytes& message) {
     drive_.poses.push_back(pose);
 }
 
-void Observer::receive_objects(const dds::WriterId& writer, const Bytes& message) {
-  TrackedObjects objects;
+template <class T>
+void Observer::receive_optional(Stream& stream, const dds::WriterId& writer, const Bytes& message) {
+  T value;
   const std::lock_guard lock(mutex_);
-  objects_stream_.note(writer, dds::header_of(message));
-  const auto refusal = dds::from_cdr(message, config_.map_frame_id, objects);
-  if (!refusal.empty()) ++objects_stream_.observed.refused[std::string(refusal)];
+  stream.note(writer, dds::header_of(message));
+  const auto refusal = dds::from_cdr(message, config_.map_frame_id, value);
+  if (!refusal.empty()) ++stream.observed.refused[std::string(refusal)];
 }
 
 /// Takes over the map frame of the service's configuration, which may differ from the doctor's.
@@ -161,6 +168,7 @@ Observed Observer::observed() const {
   result.detections = detections_stream_.until(now);
   result.poses = poses_stream_.until(now);
   result.objects = objects_stream_.until(now);
+  result.next_turns = next_turns_stream_.until(now);
   result.drive = drive_;
   for (const auto& [name, stream] : sources_) result.sources.emplace(name, stream.until(now));
   result.services.reserve(services_.size());

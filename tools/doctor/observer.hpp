@@ -42,14 +42,16 @@ class Observer {
 
   void receive_detections(const dds::WriterId& writer, const Bytes& message);
   void receive_pose(const dds::WriterId& writer, const Bytes& message);
-  void receive_objects(const dds::WriterId& writer, const Bytes& message);
+  /// Takes a message of type T that the map can do without.
+  template <class T>
+  void receive_optional(Stream& stream, const dds::WriterId& writer, const Bytes& message);
   void receive(ServiceStatus&& status);
   void take_configuration(const ServiceStatus& status);
 
   DdsConfig config_;
   SteadyClock::time_point start_ = SteadyClock::now();
   mutable std::mutex mutex_;
-  Stream detections_stream_, poses_stream_, objects_stream_;
+  Stream detections_stream_, poses_stream_, objects_stream_, next_turns_stream_;
   std::map<std::string, Stream> sources_;
   std::map<std::uint64_t, ServiceObserved> services_;  ///< by session
   check::Drive drive_;
@@ -58,6 +60,7 @@ class Observer {
   dds::RawReader<DetectionFrame> detections_;
   dds::RawReader<VehiclePose> poses_;
   dds::RawReader<TrackedObjects> objects_;
+  dds::RawReader<NextTurn> next_turns_;
   dds::Reader<ServiceStatus> statuses_;
 };
 

@@ -63,6 +63,8 @@ constexpr std::array kRefusals{
     Refusal{"speed", "the speed of an object is beyond gate.max_speed_mps", kGate},
     Refusal{"existence", "the existence probability of an object is neither within 0..1 nor -1", kWriter},
     Refusal{"length", "a length of an object is negative, but not -1", kWriter},
+    Refusal{"distance", "the distance of a turn is negative or absurd",
+            "Give it in metres along the road, from the vehicle to the middle of the intersection."},
     Refusal{"repeated_id", "two objects of one message have one id",
             "Give each object an id of its own for as long as it is followed."},
     Refusal{"too_many_sources", "eight other sources of detections are heard",

@@ -168,6 +168,13 @@ void judge_objects(const Observed& seen, Findings& found) {
   judge_sensor_clock(stream, seen.poses, found);
 }
 
+/// A navigation without a route is silent.
+void judge_next_turns(const Observed& seen, Findings& found) {
+  const Stream stream{"next_turns", "turns", &seen.next_turns};
+  judge_numbers(stream, found);
+  judge_sensor_clock(stream, seen.poses, found);
+}
+
 Finding datagrams_cut(std::uint32_t bytes, const std::string& profile_file) {
   return {"datagrams_cut",
           fmt::format("Datagrams of more than {} bytes are cut when they are received, and lost without a "
@@ -213,6 +220,7 @@ Findings stream_findings(const Observed& seen) {
   judge_detections(seen, found);
   judge_poses(seen, found);
   judge_objects(seen, found);
+  judge_next_turns(seen, found);
   judge_counted(seen, found);
   judge_datagrams(seen, found);
   for (const Stream& stream : detections(seen)) judge_sensor_clock(stream, seen.poses, found);

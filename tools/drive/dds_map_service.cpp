@@ -9,6 +9,7 @@ DdsMapService::DdsMapService(const DdsConfig& dds)
       detections_(participant_),
       poses_(participant_),
       objects_(participant_),
+      next_turns_(participant_),
       maps_(participant_, {.sample = [this](PublishedMap&& map) { take(std::move(map)); },
                            .refused = {},
                            .matched = {},

@@ -21,6 +21,7 @@ class DdsMapService : public MapService {
   void send(const VehiclePose& pose) override { poses_.write(pose); }
   void send(const DetectionFrame& frame, std::int64_t) override { detections_.write(frame); }
   void send(const TrackedObjects& objects) override { objects_.write(objects); }
+  void send(const NextTurn& turn) override { next_turns_.write(turn); }
   const LocalMap& newest(std::int64_t) override;
 
  private:
@@ -35,6 +36,7 @@ class DdsMapService : public MapService {
   dds::Writer<DetectionFrame> detections_;
   dds::Writer<VehiclePose> poses_;
   dds::Writer<TrackedObjects> objects_;
+  dds::Writer<NextTurn> next_turns_;
   dds::Reader<PublishedMap> maps_;  // last: its callbacks end first
 };
 

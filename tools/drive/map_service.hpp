@@ -13,6 +13,7 @@ class MapService {
   virtual void send(const VehiclePose& pose) = 0;
   virtual void send(const DetectionFrame& frame, std::int64_t now_ns) = 0;
   virtual void send(const TrackedObjects& objects) = 0;
+  virtual void send(const NextTurn& turn) = 0;
   /// The newest map. It has no lanes if there is none, or it is stale. The reference holds until the next
   /// call.
   virtual const LocalMap& newest(std::int64_t now_ns) = 0;
@@ -25,6 +26,7 @@ class LocalMapService : public MapService {
   void send(const VehiclePose& pose) override { session_.add(pose); }
   void send(const DetectionFrame& frame, std::int64_t now_ns) override { session_.add(frame, now_ns); }
   void send(const TrackedObjects& objects) override { session_.add(objects); }
+  void send(const NextTurn& turn) override { session_.add(turn); }
   const LocalMap& newest(std::int64_t now_ns) override {
     session_.expire(now_ns);
     return session_.map();

@@ -13,14 +13,15 @@
 #include "recording/damage.hpp"
 #include "recording/recording.hpp"
 #include "session/gate.hpp"
-#include "session/pending_objects.hpp"
+#include "session/pending_messages.hpp"
 #include "session/synchroniser.hpp"
 
 namespace laneloom::evaluation {
 namespace {
 
 using VisitFrame = std::function<void(const DetectionFrame&, const Eigen::Isometry3d&)>;
-using VisitObjects = std::function<void(const TrackedObjects&, const Eigen::Isometry3d&)>;
+template <class T>
+using Visit = std::function<void(const T&, const Eigen::Isometry3d&)>;
 using VisitMap = std::function<void(const LocalMap&)>;
 
 /// Passes on frames in the order of their stamps, and one of each source at a stamp.
@@ -90,19 +91,20 @@ class RecordedFrames {
   RecordedPoses poses_;
 };
 
-/// Gives all objects of a recording their poses.
-class RecordedObjects {
+/// Gives all messages of type T of a recording their poses: TrackedObjects or NextTurn.
+template <class T>
+class RecordedOthers {
  public:
-  explicit RecordedObjects(const VisitObjects& visit) : visit_(visit) {}
+  explicit RecordedOthers(const Visit<T>& visit) : visit_(visit) {}
 
   void add(const VehiclePose& pose) {
     poses_.add(pose);
     visit_ready();
   }
 
-  void add(TrackedObjects&& objects) {
-    if (!session::defect(objects, GateConfig{}).empty()) return;
-    pending_.add(std::move(objects), poses_.newest_ns);
+  void add(T&& message) {
+    if (!session::defect(message, GateConfig{}).empty()) return;
+    pending_.add(std::move(message), poses_.newest_ns);
     pending_.drop_excess();
   }
 
@@ -110,15 +112,15 @@ class RecordedObjects {
   void visit_ready() {
     if (!poses_.newest_ns) return;
     Eigen::Isometry3d T_map_body;
-    while (const auto objects = pending_.take_until(*poses_.newest_ns))
-      if (poses_.synchroniser.pose_at(objects->stamp_ns, T_map_body) == session::PoseBuffer::Answer::found)
-        visit_(*objects, T_map_body);
+    while (const auto message = pending_.take_until(*poses_.newest_ns))
+      if (poses_.synchroniser.pose_at(message->stamp_ns, T_map_body) == session::PoseBuffer::Answer::found)
+        visit_(*message, T_map_body);
   }
 
  private:
-  const VisitObjects& visit_;
+  const Visit<T>& visit_;
   RecordedPoses poses_;
-  session::PendingObjects pending_{Config{}};
+  session::PendingMessages<T> pending_{Config{}};
 };
 
 /// A map on the wire may have lines of less than two points, with which nothing can be compared.
@@ -180,6 +182,28 @@ void read_lines(const std::filesystem::path& path, const InputReading& reading, 
   }
 }
 
+/// Visits all messages of type T, which are `member` of frames in JSON lines.
+template <class T>
+InputAccount for_each_other(const std::filesystem::path& path, const Visit<T>& visit,
+                            const InputReading& reading, std::optional<T> io::FrameRecord::*member) {
+  InputAccount account{.left_out = LeftOut(reading.strict)};
+  if (recording::is_recording(path)) {
+    RecordedOthers<T> others(visit);
+    read_recorded<T>(path, reading, others, account);
+    others.visit_ready();
+    return account;
+  }
+  std::int64_t last_stamp_ns = 0;
+  read_lines(path, reading, account, [&](const io::FrameRecord& record) {
+    const std::optional<T>& message = record.*member;
+    if (!message) return false;
+    if (message->stamp_ns > last_stamp_ns) visit(*message, transform(record.pose));
+    last_stamp_ns = std::max(last_stamp_ns, message->stamp_ns);
+    return true;
+  });
+  return account;
+}
+
 }  // namespace
 
 InputAccount for_each_frame(const std::filesystem::path& path, const VisitFrame& visit,
@@ -198,23 +222,14 @@ InputAccount for_each_frame(const std::filesystem::path& path, const VisitFrame&
   return account;
 }
 
-InputAccount for_each_objects(const std::filesystem::path& path, const VisitObjects& visit,
+InputAccount for_each_objects(const std::filesystem::path& path, const Visit<TrackedObjects>& visit,
                               const InputReading& reading) {
-  InputAccount account{.left_out = LeftOut(reading.strict)};
-  if (recording::is_recording(path)) {
-    RecordedObjects objects(visit);
-    read_recorded<TrackedObjects>(path, reading, objects, account);
-    objects.visit_ready();
-    return account;
-  }
-  std::int64_t last_stamp_ns = 0;
-  read_lines(path, reading, account, [&](const io::FrameRecord& record) {
-    if (!record.objects) return false;
-    if (record.objects->stamp_ns > last_stamp_ns) visit(*record.objects, transform(record.pose));
-    last_stamp_ns = std::max(last_stamp_ns, record.objects->stamp_ns);
-    return true;
-  });
-  return account;
+  return for_each_other(path, visit, reading, &io::FrameRecord::objects);
+}
+
+InputAccount for_each_next_turn(const std::filesystem::path& path, const Visit<NextTurn>& visit,
+                                const InputReading& reading) {
+  return for_each_other(path, visit, reading, &io::FrameRecord::next_turn);
 }
 
 InputAccount for_each_map(const std::filesystem::path& path, const VisitMap& visit,

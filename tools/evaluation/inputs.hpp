@@ -5,6 +5,7 @@
 
 #include "base/left_out.hpp"
 #include "laneloom/counters.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
@@ -41,6 +42,11 @@ InputAccount for_each_objects(
     const std::filesystem::path& path,
     const std::function<void(const TrackedObjects&, const Eigen::Isometry3d&)>& visit,
     const InputReading& reading = {});
+
+/// Does the same for every message of the route's next turn.
+InputAccount for_each_next_turn(const std::filesystem::path& path,
+                                const std::function<void(const NextTurn&, const Eigen::Isometry3d&)>& visit,
+                                const InputReading& reading = {});
 
 /// Calls visit() for every map. Maps before the first fused frame (stamp 0), and maps older than one before
 /// them, are left out. Of several maps with one stamp, the last one is used.

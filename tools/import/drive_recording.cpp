@@ -1,6 +1,7 @@
 #include "import/drive_recording.hpp"
 
 #include <limits>
+#include <span>
 
 #include "io/leave_out.hpp"
 #include "io/new_file.hpp"
@@ -26,6 +27,11 @@ class Stream {
       io::leave_out(left_out_, io::kBeyondBounds, message.stamp_ns, more);
   }
 
+  /// Writes the messages from `next` on that are not newer.
+  void write_until(std::int64_t stamp_ns, std::span<const T>& next) {
+    for (; !next.empty() && next.front().stamp_ns <= stamp_ns; next = next.subspan(1)) write(next.front());
+  }
+
  private:
   recording::RecordingWriter& out_;
   LeftOut& left_out_;
@@ -33,22 +39,24 @@ class Stream {
 };
 
 void write_messages(recording::RecordingWriter& out, const std::vector<VehiclePose>& poses,
-                    const std::vector<DetectionFrame>& frames, const std::vector<TrackedObjects>& objects,
-                    LeftOut& left_out) {
+                    const std::vector<DetectionFrame>& frames, const OtherInputs& others, LeftOut& left_out) {
   Stream<VehiclePose> pose_stream(out, left_out);
   Stream<DetectionFrame> frame_stream(out, left_out);
   Stream<TrackedObjects> objects_stream(out, left_out);
-  auto next = objects.begin();
-  const auto write_objects_until = [&](std::int64_t stamp_ns) {
-    for (; next != objects.end() && next->stamp_ns <= stamp_ns; ++next) objects_stream.write(*next);
+  Stream<NextTurn> turns_stream(out, left_out);
+  std::span<const TrackedObjects> objects(others.objects);
+  std::span<const NextTurn> turns(others.next_turns);
+  const auto write_others_until = [&](std::int64_t stamp_ns) {
+    objects_stream.write_until(stamp_ns, objects);
+    turns_stream.write_until(stamp_ns, turns);
   };
   auto frame = frames.begin();
   const auto write_before = [&](std::int64_t stamp_ns) {
     for (; frame != frames.end() && frame->stamp_ns < stamp_ns; ++frame) {
-      write_objects_until(frame->stamp_ns);
+      write_others_until(frame->stamp_ns);
       frame_stream.write(*frame);
     }
-    write_objects_until(stamp_ns - 1);
+    write_others_until(stamp_ns - 1);
   };
   for (const VehiclePose& pose : poses) {
     write_before(pose.stamp_ns);
@@ -74,12 +82,11 @@ std::size_t drop_frames_without_pose(std::vector<DetectionFrame>& frames,
 }
 
 LeftOut write_drive(const std::string& path, const std::vector<VehiclePose>& poses,
-                    const std::vector<DetectionFrame>& frames, const std::vector<TrackedObjects>& objects,
-                    bool strict) {
+                    const std::vector<DetectionFrame>& frames, const OtherInputs& others, bool strict) {
   LeftOut left_out(strict);
   io::make_file(path, [&] {
     recording::RecordingWriter out(path);
-    write_messages(out, poses, frames, objects, left_out);
+    write_messages(out, poses, frames, others, left_out);
   });
   return left_out;
 }

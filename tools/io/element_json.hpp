@@ -12,6 +12,7 @@
 #include "base/fields.hpp"
 #include "io/json_fields.hpp"
 #include "laneloom/element_names.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 
 /// Detections and the elements of maps as JSON, by their tables of fields.

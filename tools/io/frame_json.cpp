@@ -125,6 +125,7 @@ std::string to_json_line(const FrameRecord& record) {
   for (const Polyline& area : frame.occluded_areas) out["occluded_areas"].push_back(polyline_json(area));
   if (record.objects)
     out["objects"] = ToJson::of(in_body_frame(*record.objects, transform(record.pose)).objects);
+  if (record.next_turn) out["next_turn"] = ToJson::of(*record.next_turn);
   return out.dump();
 }
 
@@ -155,6 +156,9 @@ FrameRecord frame_from_json(std::string_view text, const FrameReading& reading) 
   const auto can_be_read = [&](const json& items) { return tracked_objects(items, reading); };
   if (auto objects = optional(object, "objects", can_be_read))
     record.objects = TrackedObjects{frame.stamp_ns, frame.sequence, frame.session_id, *std::move(objects)};
+  if (auto turn = optional(object, "next_turn", FromJson::element<NextTurn>)) {
+    record.next_turn = {frame.stamp_ns, frame.sequence, frame.session_id, turn->turn, turn->distance_m};
+  }
   return record;
 }
 

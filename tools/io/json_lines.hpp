@@ -12,6 +12,7 @@
 
 #include "base/left_out.hpp"
 #include "io/text_file.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
@@ -27,7 +28,8 @@
 ///      "stamp_ns": 1, "sequence": 1, "session_id": 1, "source": "…", "detected_types": ["laneline", …],
 ///      "field_of_view": [[x, y, z], …], "occluded_areas": [[[x, y, z], …], …],
 ///      "objects": [{"id": 1, "kind": "car", "position": [x, y, z], "heading": [x, y, z], "speed": 8.0,
-///                   "existence": 0..1 or -1, "stddev": 0.3, "length": 4.5, "width": 1.8}, …]}
+///                   "existence": 0..1 or -1, "stddev": 0.3, "length": 4.5, "width": 1.8}, …],
+///      "next_turn": {"turn": "left" | "right" | "straight" | "unknown", "distance": 80}}
 ///
 /// The pose is T_map_body at t, points are in the body frame, metres. A detection's style and stddev, and
 /// everything from stamp_ns on, may be left out, and of an object all but id and position; stamp_ns is exact
@@ -69,6 +71,7 @@ struct FrameRecord {
   DetectionFrame frame;
   VehiclePose pose;
   std::optional<TrackedObjects> objects = {};  ///< at the frame's stamp; none: there is no tracker
+  std::optional<NextTurn> next_turn = {};      ///< likewise; none: nothing is told anew
 };
 
 /// One line, without its end. All numbers must be finite.

@@ -115,10 +115,9 @@ void write_recording(const std::string& file, const std::vector<SeenFrame>& seen
     poses.back().stamp_ns = frame.stamp_ns;
     frames.push_back(frame);
   }
-  std::vector<TrackedObjects> objects;
-  objects.reserve(seen_objects.size());
-  for (const SeenObjects& each : seen_objects) objects.push_back(each.objects);
-  imports::write_drive(file, poses, frames, objects, /*strict=*/true);
+  imports::OtherInputs others;
+  for (const SeenObjects& each : seen_objects) others.objects.push_back(each.objects);
+  imports::write_drive(file, poses, frames, others, /*strict=*/true);
 }
 
 void write_json_lines(const std::string& file, const std::vector<SeenFrame>& seen,

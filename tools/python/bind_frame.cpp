@@ -53,6 +53,14 @@ sequence, session_id: number of the message, and of the tracker's run
 ValueError: there are more than 256, two have one id, a heading is not of unit length, or whatever else the service
 would refuse.)";
 
+constexpr const char* kNextTurnDoc = R"(Where the vehicle's route turns next, as its navigation tells it.
+
+stamp_ns: time of the sensor in nanoseconds, above 0
+turn: "left" or "right"; "straight" or "unknown": the way leads straight on
+distance: along the road to the middle of the intersection, in metres
+
+ValueError: the distance is negative, or whatever else the service would refuse.)";
+
 constexpr const char* kPoseDoc = R"(Where the vehicle is in the map frame at one instant.
 
 position: array (3,), metres
@@ -159,6 +167,13 @@ TrackedObjects make_objects(const py::object& stamp_ns, const py::object& object
                                 .objects = items(objects, "objects", instance<TrackedObject>),
                                 .in_map_frame = boolean(in_map_frame, "in_map_frame")},
                  "Objects");
+}
+
+NextTurn make_next_turn(const py::object& stamp_ns, const py::object& turn, const py::object& distance) {
+  return checked(NextTurn{.stamp_ns = integer(stamp_ns, "stamp_ns"),
+                          .turn = word<Linkage::Turn>(turn, "turn", kTurnNames),
+                          .distance_m = number(distance, "distance")},
+                 "NextTurn");
 }
 
 VehiclePose make_pose(const py::object& position, const py::object& orientation, const py::object& stamp_ns) {
@@ -270,6 +285,19 @@ void bind_objects(py::module_& module) {
       });
 }
 
+void bind_next_turn(py::module_& module) {
+  using py::arg;
+  py::class_<NextTurn>(module, "NextTurn", kNextTurnDoc)
+      .def(py::init(&make_next_turn), arg("stamp_ns"), arg("turn"), arg("distance"))
+      .def(pickled<NextTurn>())
+      .def_property_readonly("stamp_ns", [](const NextTurn& t) { return t.stamp_ns; })
+      .def_property_readonly("turn", [](const NextTurn& t) { return name(t.turn); })
+      .def_property_readonly("distance", [](const NextTurn& t) { return t.distance_m; })
+      .def("__repr__", [](const NextTurn& t) {
+        return fmt::format("<NextTurn at {} ns: {} in {:.0f} m>", t.stamp_ns, name(t.turn), t.distance_m);
+      });
+}
+
 void bind_pose(py::module_& module) {
   using py::arg;
   using Pose = VehiclePose;
@@ -321,6 +349,7 @@ void bind_frame(py::module_& module) {
   bind_frames(module);
   bind_tracked_object(module);
   bind_objects(module);
+  bind_next_turn(module);
   bind_pose(module);
 }
 

@@ -31,10 +31,11 @@ constexpr const char* kUpdateDoc = R"(Fuses one frame and returns the map after 
 frame: Frame, as the network saw it
 pose: Pose of the vehicle at the frame's stamp. Poses of one drive are in one map frame)";
 
-constexpr const char* kAddDoc = R"(Takes what a tracker follows. The next update() uses it.
+constexpr const char* kAddDoc =
+    R"(Takes what a tracker follows, or the next turn of the route. The next update() uses it.
 
-objects: Objects, in the order of their stamps, and of their sessions where stamps are equal
-pose: Pose of the vehicle at their stamp)";
+seen: Objects, in the order of their stamps, and of their sessions where stamps are equal; or NextTurn
+pose: Pose of the vehicle at its stamp)";
 
 /// A mapper that several threads may use, one at a time.
 class SharedMapper {
@@ -46,9 +47,10 @@ class SharedMapper {
     const std::lock_guard lock(mutex_);
     return mapper_.update(frame, T_map_body, explain_ ? &reasons_ : nullptr);
   }
-  void add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body) {
+  template <class T>
+  void add(const T& seen, const Eigen::Isometry3d& T_map_body) {
     const std::lock_guard lock(mutex_);
-    mapper_.add(objects, T_map_body);
+    mapper_.add(seen, T_map_body);
   }
   std::vector<std::string> why(ElementId id) {
     const std::lock_guard lock(mutex_);
@@ -124,11 +126,14 @@ LocalMap update(SharedMapper& mapper, const py::object& frame, const py::object&
   return mapper.update(seen, T_map_body);
 }
 
-void add(SharedMapper& mapper, const py::object& objects, const py::object& pose) {
-  const TrackedObjects& seen = instance<TrackedObjects>(objects, "objects");
-  const Eigen::Isometry3d T_map_body = transform(instance<VehiclePose>(pose, "pose"));
-  const py::gil_scoped_release others_run;
-  mapper.add(seen, T_map_body);
+void add(SharedMapper& mapper, const py::object& seen, const py::object& pose) {
+  const auto add_as = [&]<class T>(const T& message) {
+    const Eigen::Isometry3d T_map_body = transform(instance<VehiclePose>(pose, "pose"));
+    const py::gil_scoped_release others_run;
+    mapper.add(message, T_map_body);
+  };
+  if (py::isinstance<NextTurn>(seen)) return add_as(seen.cast<const NextTurn&>());
+  add_as(instance<TrackedObjects>(seen, "objects"));
 }
 
 py::dict learned(SharedMapper& mapper, const py::object& source) {

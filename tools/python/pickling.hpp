@@ -69,6 +69,12 @@ void serialize(Archive& archive, TrackedObjects& objects) {
 }
 
 template <class Archive>
+void serialize(Archive& archive, NextTurn& turn) {
+  auto& [stamp_ns, sequence, session_id, kind, distance_m] = turn;
+  archive(stamp_ns, sequence, session_id, kind, distance_m);
+}
+
+template <class Archive>
 void serialize(Archive& archive, VehiclePose& pose) {
   auto& [stamp_ns, sequence, session_id, position, orientation] = pose;
   archive(stamp_ns, sequence, session_id, position, orientation);

@@ -62,14 +62,9 @@ class JsonLinesMessages : public MessageSource {
         left_out_(reading.strict) {}
 
   std::optional<recording::RecordedMessage> next() override {
-    if (objects_) {
-      const std::int64_t stamp_ns = objects_->stamp_ns;
-      return recording::RecordedMessage{stamp_ns, stamp_ns, *std::exchange(objects_, std::nullopt)};
-    }
-    if (frame_) {
-      const std::int64_t stamp_ns = frame_->stamp_ns;
-      return recording::RecordedMessage{stamp_ns, stamp_ns, *std::exchange(frame_, std::nullopt)};
-    }
+    if (objects_) return taken(objects_);
+    if (next_turn_) return taken(next_turn_);
+    if (frame_) return taken(frame_);
     std::optional<io::FrameRecord> record = reader_.next_frame(left_out_);
     if (!record) {
       check_rest(path_, left_out_, count_);
@@ -78,6 +73,7 @@ class JsonLinesMessages : public MessageSource {
     record->pose.sequence = ++count_;  // lines have no number for it
     frame_ = std::move(record->frame);
     objects_ = std::move(record->objects);
+    next_turn_ = record->next_turn;
     return recording::RecordedMessage{frame_->stamp_ns, frame_->stamp_ns, record->pose};
   }
 
@@ -99,6 +95,12 @@ class JsonLinesMessages : public MessageSource {
   recording::Origin origin() const override { return {}; }
 
  private:
+  template <class T>
+  static recording::RecordedMessage taken(std::optional<T>& message) {
+    const std::int64_t stamp_ns = message->stamp_ns;
+    return {stamp_ns, stamp_ns, *std::exchange(message, std::nullopt)};
+  }
+
   std::string path_;
   io::JsonLinesReader reader_;
   std::string map_frame_id_;
@@ -106,6 +108,7 @@ class JsonLinesMessages : public MessageSource {
   std::uint64_t count_ = 0;                ///< of frames
   std::optional<DetectionFrame> frame_;    ///< the next message; its pose was given out before it
   std::optional<TrackedObjects> objects_;  ///< likewise, between the two
+  std::optional<NextTurn> next_turn_;      ///< likewise
 };
 
 }  // namespace

@@ -11,17 +11,29 @@ bool is(const recording::RawMessage& message) {
   return message.topic == topic;
 }
 
-}  // namespace
-
-bool has_objects(MessageSource& source) {
-  while (const auto message = source.next_raw())
-    if (is<TrackedObjects>(*message)) return true;
-  return false;
+template <class T>
+std::optional<dds::RawWriter<T>> writer_if(bool is_wanted, const dds::Participant& participant) {
+  if (!is_wanted) return std::nullopt;
+  return dds::RawWriter<T>(participant);
 }
 
-Player::Player(const DdsConfig& dds, double speed_up, bool with_objects)
+}  // namespace
+
+OptionalTopics optional_topics(MessageSource& source) {
+  OptionalTopics topics;
+  while (!topics.objects || !topics.next_turns) {
+    const auto message = source.next_raw();
+    if (!message) break;
+    topics.objects |= is<TrackedObjects>(*message);
+    topics.next_turns |= is<NextTurn>(*message);
+  }
+  return topics;
+}
+
+Player::Player(const DdsConfig& dds, double speed_up, const OptionalTopics& topics)
     : participant_(dds, "laneloom replay"),
-      objects_(with_objects ? std::make_unique<dds::RawWriter<TrackedObjects>>(participant_) : nullptr),
+      objects_(writer_if<TrackedObjects>(topics.objects, participant_)),
+      next_turns_(writer_if<NextTurn>(topics.next_turns, participant_)),
       detections_(participant_),
       poses_(participant_),
       speed_up_(speed_up) {}
@@ -40,8 +52,10 @@ void Player::publish(const recording::RawMessage& message) {
     ++(detections_.write(message.bytes) ? detections_published_ : not_taken_);
   } else if (is<VehiclePose>(message)) {
     ++(poses_.write(message.bytes) ? poses_published_ : not_taken_);
-  } else if (is<TrackedObjects>(message) && objects_ && !objects_->write(message.bytes)) {
-    ++not_taken_;
+  } else if (is<TrackedObjects>(message) && objects_) {
+    not_taken_ += objects_->write(message.bytes) ? 0U : 1U;
+  } else if (is<NextTurn>(message) && next_turns_) {
+    not_taken_ += next_turns_->write(message.bytes) ? 0U : 1U;
   }
 }
 

@@ -3,26 +3,31 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "laneloom/dds/raw_writer.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "recording/recording.hpp"
 #include "replay/message_source.hpp"
 
 namespace laneloom::replay {
 
-/// Whether there are objects among the messages that a source has left. It reads up to the first of them.
-bool has_objects(MessageSource& source);
+/// The topics that a drive may do without.
+struct OptionalTopics {
+  bool objects = false, next_turns = false;
+};
 
-/// Publishes recorded detections, poses and objects again, byte for byte, as their participants did. Not
-/// thread-safe.
+/// Those that there are messages of among what a source has left. It reads up to the first ones.
+OptionalTopics optional_topics(MessageSource& source);
+
+/// Publishes recorded detections, poses, objects and turns again, byte for byte, as their participants did.
+/// Not thread-safe.
 class Player {
  public:
-  /// `speed_up`: recorded seconds per second. `with_objects`: whether there will be objects; otherwise their
-  /// topic is not announced, and they are passed over. Throws std::runtime_error where DDS refuses.
-  Player(const DdsConfig& dds, double speed_up, bool with_objects);
+  /// `speed_up`: recorded seconds per second. `topics`: those of which there will be messages; others are not
+  /// announced, and their messages are passed over. Throws std::runtime_error where DDS refuses.
+  Player(const DdsConfig& dds, double speed_up, const OptionalTopics& topics);
 
   /// Number of readers, of detections or poses, whichever has fewer.
   int readers() const { return std::min(detections_.matched(), poses_.matched()); }
@@ -39,7 +44,8 @@ class Player {
 
  private:
   dds::Participant participant_;
-  std::unique_ptr<dds::RawWriter<TrackedObjects>> objects_;  ///< null: there will be none
+  std::optional<dds::RawWriter<TrackedObjects>> objects_;  ///< none: there will be no messages
+  std::optional<dds::RawWriter<NextTurn>> next_turns_;     ///< likewise
   dds::RawWriter<DetectionFrame> detections_;
   dds::RawWriter<VehiclePose> poses_;
   double speed_up_;

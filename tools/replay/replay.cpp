@@ -56,6 +56,7 @@ void Replay::add(recording::RecordedMessage message) {
   if (const auto* pose = std::get_if<VehiclePose>(&message.message)) session_.add(*pose);
   if (auto* frame = std::get_if<DetectionFrame>(&message.message)) session_.add(std::move(*frame), now_ns_);
   if (auto* objects = std::get_if<TrackedObjects>(&message.message)) session_.add(std::move(*objects));
+  if (const auto* turn = std::get_if<NextTurn>(&message.message)) session_.add(*turn);
   session_.take_progress();
 }
 

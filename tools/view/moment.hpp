@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "laneloom/messages.hpp"
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "view/traffic.hpp"
 
@@ -40,6 +41,8 @@ class MomentBuilder {
   bool add(RoadMarkings&& markings, std::int64_t now_ns);
   bool add(ServiceStatus&& status, std::int64_t now_ns);
   bool add(TrackedObjects&& objects, std::int64_t now_ns);
+  /// The map's way shows what became of the turn.
+  bool add(NextTurn&& /*turn*/, std::int64_t /*now_ns*/) { return false; }
 
   /// The moment that was completed. Is to be called once each time that add() returns true.
   ViewMoment take();

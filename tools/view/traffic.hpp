@@ -8,7 +8,7 @@
 #include "laneloom/config.hpp"
 #include "laneloom/objects.hpp"
 #include "mapping/trails/trails.hpp"
-#include "session/pending_objects.hpp"
+#include "session/pending_messages.hpp"
 #include "session/pose_buffer.hpp"
 
 namespace laneloom::view {
@@ -44,7 +44,7 @@ class TrafficFollower {
   Config config_;
   std::optional<VehiclePose> newest_pose_;
   session::PoseBuffer poses_;
-  session::PendingObjects pending_;
+  session::PendingMessages<TrackedObjects> pending_;
   trails::Trails trails_;
   std::map<std::uint64_t, SeenObjects> seen_;  ///< by session
 };

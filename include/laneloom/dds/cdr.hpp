@@ -9,7 +9,7 @@
 #include <vector>
 
 /// Messages as bytes, exactly as they go over the wire: plain CDR behind its encapsulation header. T is
-/// DetectionFrame, VehiclePose, TrackedObjects, PublishedMap, RoadMarkings or ServiceStatus.
+/// DetectionFrame, VehiclePose, TrackedObjects, NextTurn, PublishedMap, RoadMarkings or ServiceStatus.
 namespace laneloom::dds {
 
 /// Writes `from` as bytes to `to`. Returns how many elements were left out because they exceed the bounds of

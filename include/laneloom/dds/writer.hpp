@@ -7,8 +7,8 @@
 
 namespace laneloom::dds {
 
-/// Writes one topic; T is DetectionFrame, VehiclePose, TrackedObjects, PublishedMap, RoadMarkings or
-/// ServiceStatus. Not thread-safe; throws std::runtime_error when it can't be made.
+/// Writes one topic; T is DetectionFrame, VehiclePose, TrackedObjects, NextTurn, PublishedMap, RoadMarkings
+/// or ServiceStatus. Not thread-safe; throws std::runtime_error when it can't be made.
 template <class T>
 class Writer {
  public:

@@ -1,9 +1,10 @@
-#include "session/pending_objects.hpp"
+#include "session/pending_messages.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
+#include "laneloom/objects.hpp"
 #include "milliseconds.hpp"
 
 namespace laneloom::session {
@@ -11,7 +12,7 @@ namespace {
 
 using Keys = std::vector<std::pair<std::int64_t, std::uint64_t>>;
 
-class PendingObjectsTest : public ::testing::Test {
+class PendingMessagesTest : public ::testing::Test {
  protected:
   /// The newest pose is of 10 s.
   std::string_view add(std::int64_t stamp_ms, std::uint64_t session = 1) {
@@ -25,17 +26,17 @@ class PendingObjectsTest : public ::testing::Test {
     return keys;
   }
 
-  PendingObjects pending_{Config{}};
+  PendingMessages<TrackedObjects> pending_{Config{}};
 };
 
-TEST_F(PendingObjectsTest, AreTakenInTheOrderOfStampsAndSessions) {
+TEST_F(PendingMessagesTest, AreTakenInTheOrderOfStampsAndSessions) {
   for (const auto& [stamp_ms, session] : Keys{{9'300, 1}, {9'100, 2}, {9'400, 1}, {9'100, 1}, {9'200, 2}})
     EXPECT_EQ(add(stamp_ms, session), "");
   EXPECT_EQ(take_until(9'300), (Keys{{9'100, 1}, {9'100, 2}, {9'200, 2}, {9'300, 1}}));
   EXPECT_EQ(pending_.size(), 1U) << "it is newer than the frame";
 }
 
-TEST_F(PendingObjectsTest, OlderOnesThanThoseOfTheirSessionThatWereTakenAreRefused) {
+TEST_F(PendingMessagesTest, OlderOnesThanThoseOfTheirSessionThatWereTakenAreRefused) {
   EXPECT_EQ(add(9'200), "");
   EXPECT_EQ(add(9'200), "repeated");
   take_until(9'500);
@@ -47,13 +48,13 @@ TEST_F(PendingObjectsTest, OlderOnesThanThoseOfTheirSessionThatWereTakenAreRefus
   EXPECT_EQ(add(9'100), "") << "all begins anew";
 }
 
-TEST_F(PendingObjectsTest, AStampFarAheadOfThePosesIsRefused) {
+TEST_F(PendingMessagesTest, AStampFarAheadOfThePosesIsRefused) {
   EXPECT_EQ(add(11'900), "");
   EXPECT_EQ(add(12'100), "outlier");
   EXPECT_EQ(pending_.add({.stamp_ns = 1}, std::nullopt), "unsynchronised");
 }
 
-TEST_F(PendingObjectsTest, AreBounded) {
+TEST_F(PendingMessagesTest, AreBounded) {
   for (int i = 0; i < 70; ++i) EXPECT_EQ(add(9'000 + i), "");
   EXPECT_EQ(pending_.drop_excess(), 6U);
   EXPECT_EQ(take_until(9'006), (Keys{{9'006, 1}})) << "the oldest were dropped";
