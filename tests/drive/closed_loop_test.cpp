@@ -54,6 +54,19 @@ TEST(ClosedLoop, WithoutNoiseTheTownsLanesAreHardlyLeft) {
   EXPECT_LE(score.departures.size(), 2U);
 }
 
+TEST(ClosedLoop, ThePublishedWayMakesTheTurnsThatTheServiceIsTold) {
+  for (const char* name : {"t_intersection", "intersection", "exit"}) {
+    const simulation::Road road = simulation::make_scenario(name);
+    LocalMapService service{Config{}};
+    ClosedLoop loop(road, {.by_published_way = true}, service);
+    run(loop, 100.0);
+    const DriveScore score = loop.score();
+    EXPECT_GT(score.driven_m, 500.0) << name;
+    EXPECT_TRUE(score.departures.empty()) << name;
+    EXPECT_EQ(score.missed_turns, 0U) << name;
+  }
+}
+
 TEST(ClosedLoop, SaysHowFarItDroveByLanesThatAreInferred) {
   const auto inferred_share = [](const char* name) {
     const simulation::Road road = simulation::make_scenario(name);

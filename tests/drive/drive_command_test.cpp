@@ -67,6 +67,18 @@ TEST_F(DriveCommand, DrivesOnTheMapOfARunningService) {
   EXPECT_LT(all.at("standing_s"), 6.0);
 }
 
+TEST_F(DriveCommand, FollowsTheWayOfARunningServiceThatIsToldTheTurn) {
+  const support::ChildProcess service = start("laneloomd" + dds_ + "turns", "log");
+  ASSERT_TRUE(
+      done("--scenario t_intersection --noise none --duration 30 --dds --published-way --json "
+           "--require-lane" +
+           dds_ + "turns"))
+      << text("log");
+  const json all = json::parse(output()).at("all");
+  EXPECT_GT(all.at("driven_m"), 100.0) << "beyond the intersection";
+  EXPECT_EQ(all.at("missed_turns"), 0);
+}
+
 TEST_F(DriveCommand, SaysThatNoServiceIsThere) {
   EXPECT_EQ(run("--scenario straight --dds" + dds_ + "nobody"), 3);
   EXPECT_THAT(output(), HasSubstr("no service"));

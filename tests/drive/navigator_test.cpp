@@ -15,7 +15,7 @@ TEST(Navigator, WantsTheTurnsOfTheDrive) {
   Navigator navigator(road, lanes);
   const Navigator::Start start = navigator.at_begin();
   EXPECT_NEAR((start.vehicle.rear_axle - road.drive.pose_at(0.0).position.head<2>()).norm(), 0.0, 0.2);
-  EXPECT_EQ(navigator.wanted_turn(), Linkage::Turn::left);
+  EXPECT_EQ(navigator.next_turn({}).turn, Linkage::Turn::left);
 }
 
 /// The lane that leads from the place of `start` into the intersection, and all that cross from its end.

@@ -17,7 +17,7 @@ Plan plan_on(const LocalMap& map, const Bicycle& vehicle, const Plan& previous =
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
   T_map_body.translation() = on_ground(vehicle.rear_axle);
   T_map_body.rotate(Eigen::AngleAxisd(vehicle.heading_rad, Eigen::Vector3d::UnitZ()));
-  return next_plan(map, T_map_body, vehicle.speed_mps, previous, wish);
+  return next_plan(map, T_map_body, vehicle.speed_mps, previous, {.wish = wish});
 }
 
 double distance(const Plan& plan, const Point& point) {

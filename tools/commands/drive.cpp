@@ -35,6 +35,7 @@ struct DriveOptions {
   std::string config, preset;
   DdsConfig dds;
   bool over_dds = false;
+  bool by_published_way = false;
   bool require_lane = false;
   bool json = false;
 };
@@ -48,7 +49,8 @@ drive::ClosedLoopSpec loop_spec(const experiment::DriveSpec& drive, const DriveO
           .seed = drive.seed,
           .speed_mps = options.roads.speed_mps,
           .drift = drive.drift,
-          .traffic = drive.traffic};
+          .traffic = drive.traffic,
+          .by_published_way = options.by_published_way};
 }
 
 Config read_config(const DriveOptions& options) {
@@ -146,6 +148,8 @@ void add_drive(CLI::App& app) {
           ->excludes(config)
           ->excludes(preset);
   for (CLI::Option* option : add_dds(*command, options->dds)) option->needs(dds);
+  command->add_flag("--published-way", options->by_published_way,
+                    "Follow the way of each map, and tell the service the next turn");
   command->add_flag("--require-lane", options->require_lane, "Fail if the vehicle leaves its lane");
   command->add_flag("--json", options->json, "One JSON object");
   command->callback([options] { drive(*options); });

@@ -115,7 +115,15 @@ void ClosedLoop::plan() {
   const LocalMap& newest = service_.newest(now_ns());
   const LocalMap none;
   const LocalMap& map = newest.stamp_ns >= begun_ns_ ? newest : none;
-  Plan next = next_plan(map, T_told_, told_.speed_mps, plan_, wish_for(navigator_.wanted_turn()));
+  const Navigator::Turn turn = navigator_.next_turn(lanes_.on_surface(vehicle_).translation());
+  if (spec_.by_published_way)
+    service_.send(NextTurn{.stamp_ns = now_ns(),
+                           .sequence = static_cast<std::uint64_t>(steps_),
+                           .session_id = spec_.session_id,
+                           .turn = turn.turn,
+                           .distance_m = turn.distance_m});
+  Plan next = next_plan(map, T_told_, told_.speed_mps, plan_,
+                        {.wish = wish_for(turn.turn), .by_published_way = spec_.by_published_way});
   cause_ = cause_of_guess(map);
   in_inferred_lane_ = is_inferred(map, on_ground(told_.rear_axle));
   if (!started_) {

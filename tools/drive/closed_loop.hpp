@@ -22,8 +22,9 @@ struct ClosedLoopSpec {
   double speed_mps = 10.0;  ///< greatest speed
   double drift = 0.0;       ///< of the odometry, as a share of the distance driven
   std::optional<simulation::TrafficProfile> traffic = {};  ///< none: there is no tracker
-  std::int64_t start_ns = 1;                               ///< of the sensor clock
-  std::uint64_t session_id = 1;  ///< of the first start; each restart has the next id
+  bool by_published_way = false;  ///< the map's own way leads, and the service is told the next turn
+  std::int64_t start_ns = 1;      ///< of the sensor clock
+  std::uint64_t session_id = 1;   ///< of the first start; each restart has the next id
 };
 
 /// A vehicle that is steered by the map which a service makes of the vehicle's own detections. The true road

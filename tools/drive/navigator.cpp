@@ -165,16 +165,23 @@ bool Navigator::follow(const std::vector<std::size_t>& lanes) {
   return turned;
 }
 
-Linkage::Turn Navigator::wanted_turn() const {
+Navigator::Turn Navigator::next_turn(const Point& place) const {
   const auto crosses = [this](std::size_t at) { return road_.lanes[route_[at]].in_intersection; };
+  const auto length_m = [this](std::size_t at) { return lanes_.centerline(route_[at]).length(); };
   std::size_t first = at_;
   while (first < route_.size() && !crosses(first)) ++first;
-  if (first == route_.size()) return Linkage::Turn::unknown;
+  if (first == route_.size()) return {};
   std::size_t last = first;
   while (first > 0 && crosses(first - 1)) --first;
   while (last + 1 < route_.size() && crosses(last + 1)) ++last;
+  double begin_m = -lanes_.centerline(route_[at_]).project(place).arc_m;
+  for (std::size_t at = first; at < at_; ++at) begin_m -= length_m(at);
+  for (std::size_t at = at_; at < first; ++at) begin_m += length_m(at);
+  double across_m = 0.0;
+  for (std::size_t at = first; at <= last; ++at) across_m += length_m(at);
   const MeasuredPolyline &in = lanes_.centerline(route_[first]), &out = lanes_.centerline(route_[last]);
-  return turn_between(in.direction(0.0), out.direction(out.length()));
+  return {turn_between(in.direction(0.0), out.direction(out.length())),
+          std::max(0.0, begin_m + 0.5 * across_m)};
 }
 
 }  // namespace laneloom::drive

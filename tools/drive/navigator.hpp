@@ -31,9 +31,12 @@ class Navigator {
   /// Follows the vehicle, which is in one of these lanes. If none of them is on the route, it is planned anew
   /// from there. Returns whether a turn was missed.
   bool follow(const std::vector<std::size_t>& lanes);
-  /// The turn at the next intersection on the route, or at the one that the vehicle is in. unknown: there is
-  /// no intersection.
-  Linkage::Turn wanted_turn() const;
+  /// The turn at the next intersection on the route, or at the one that the vehicle is in.
+  struct Turn {
+    Linkage::Turn turn = Linkage::Turn::unknown;  ///< unknown: there is no intersection
+    double distance_m = 0.0;  ///< along the route from `place` to the intersection's middle; 0: it is past
+  };
+  Turn next_turn(const Point& place) const;
 
  private:
   Start start_at(std::size_t lane, double arc_m) const;

@@ -79,6 +79,11 @@ std::optional<Entry> find_entry(const LaneGraph& graph, const Plan& earlier, con
   return earlier.support_at(track.at(vehicle_m)) == Support::guessed ? oncoming : std::nullopt;
 }
 
+/// The way of the map, which begins beside the vehicle.
+std::optional<Entry> published_entry(const LocalMap& map) {
+  return map.way ? std::optional(Entry{.way = *map.way}) : std::nullopt;
+}
+
 /// Whether the lane of the vehicle ends soon, and no turn as it is wished follows it.
 bool looks_for_turn(const Entry& entry, WayWish wish) {
   if (wish != WayWish::left && wish != WayWish::right) return false;
@@ -179,11 +184,13 @@ Support Plan::support_at(const Point& place) const {
 }
 
 Plan next_plan(const LocalMap& map, const Eigen::Isometry3d& T_map_body, double speed_mps,
-               const Plan& previous, WayWish wish) {
+               const Plan& previous, const Guide& guide) {
   Plan earlier = carried_on(T_map_body, previous);
   const MeasuredPolyline track(earlier.path);
   const double vehicle_m = track.project(T_map_body.translation()).arc_m;
-  const std::optional<Entry> entry = find_entry(LaneGraph(map), earlier, track, vehicle_m, wish);
+  const std::optional<Entry> entry = guide.by_published_way
+                                         ? published_entry(map)
+                                         : find_entry(LaneGraph(map), earlier, track, vehicle_m, guide.wish);
   if (!entry) return earlier;
   const Plan way = plan_along(entry->way, earlier);
   const double blend_m = std::max(kMinBlend_m, kBlend_s * speed_mps);
@@ -191,7 +198,7 @@ Plan next_plan(const LocalMap& map, const Eigen::Isometry3d& T_map_body, double 
   const double from_m = vehicle_m + std::max(0.0, entry->ahead_m - blend_m);
   Plan next = until(earlier, from_m);
   next.way = entry->way;
-  next.looks_for_turn = looks_for_turn(*entry, wish);
+  next.looks_for_turn = looks_for_turn(*entry, guide.wish);
   const std::size_t kept = next.path.size();
   if (entry->ahead_m > kMinGap_m)
     bend_over(track, from_m, blend_m, way, next);

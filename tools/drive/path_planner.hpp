@@ -27,12 +27,19 @@ struct Plan {
   Support support_at(const Point& place) const;
 };
 
+/// What leads a plan.
+struct Guide {
+  WayWish wish = WayWish::straight;
+  bool by_published_way =
+      false;  ///< the way of the map, which fulfils the wish, rather than one of the plan's own
+};
+
 /// Plans the path of the vehicle on a map: along the way that the map has from where the previous plan leads.
 ///
 /// The plan begins beside the vehicle as the previous one, and bends to the way smoothly. If the map gives no
 /// way, the previous plan stays where it is in the map frame, and is prolonged with a curvature that fades.
 /// Pure.
 Plan next_plan(const LocalMap& map, const Eigen::Isometry3d& T_map_body, double speed_mps,
-               const Plan& previous, WayWish wish);
+               const Plan& previous, const Guide& guide);
 
 }  // namespace laneloom::drive
