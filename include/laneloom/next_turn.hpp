@@ -12,8 +12,8 @@ struct NextTurn {
   std::uint64_t sequence = 0;                   ///< counts up by one per message of the writer
   std::uint64_t session_id = 0;                 ///< of the writer's run
   Linkage::Turn turn = Linkage::Turn::unknown;  ///< neither left nor right: the way leads straight on
-  double distance_m =
-      0.0;  ///< along the road, from the vehicle at the stamp to the middle of the intersection
+  /// Along the road, from the vehicle at the stamp to the middle of the intersection.
+  double distance_m = 0.0;
 };
 
 }  // namespace laneloom

@@ -63,7 +63,7 @@ struct LocalMap {
   std::vector<Stopline> stoplines;       ///< with the lanes whose traffic waits there
   std::vector<Lane> lanes;               ///< in ascending order of ids
   std::vector<Linkage> linkages;         ///< between these lanes, by ascending ids
-  std::optional<Way> way;                ///< straight on from the pose; empty: no way is known
+  std::optional<Way> way;                ///< from the pose on; empty: no way is known
   std::vector<DrivenPath> driven_paths;  ///< where no lane is known
   std::vector<LineageEvent> lineage;     ///< since the frame before
 };

@@ -13,9 +13,9 @@ namespace laneloom {
 struct WayOptions {
   double reach_m = 60.0;  ///< greatest length; more than `step_m`
   double step_m = 1.0;    ///< between stations; more than 0
-  /// Where the wished turn is, ahead of the vehicle: the lane that is left for it ends there. Where no lane
-  /// turns there, a branch that forks off to that side is taken. Empty: it is the next turn that the map
-  /// allows.
+  /// Where the wished turn is: the lane from which it is made ends within this range ahead of the vehicle. Of
+  /// several such lanes, it is the first one. Where no lane turns there, a branch that forks off to that side
+  /// is taken. Empty: it is the next turn that the map allows.
   std::optional<Stretch> turn_m = {};
 };
 

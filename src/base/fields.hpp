@@ -243,10 +243,12 @@ static_assert(kUnpublishedMembers<Stopline> == 0);
 static_assert(kUnpublishedMembers<Linkage> == 0);
 static_assert(kUnpublishedMembers<WayStation> == 0);
 static_assert(kUnpublishedMembers<WayLane> == 0);
-static_assert(kUnpublishedMembers<Way> == 2,
-              "wish and change alone are not published: straight on, and none");
+static_assert(
+    kUnpublishedMembers<Way> == 2,
+    "wish and change alone are not published: the wish is what the service was told, and there is no change");
 static_assert(kUnpublishedMembers<DrivenPath> == 0);
 static_assert(kUnpublishedMembers<TrackedObject> == 0);
+static_assert(kUnpublishedMembers<NextTurn> == 3, "stamp_ns, sequence and session_id: they are the header's");
 static_assert(kUnpublishedMembers<FusedFrame> == 0);
 
 }  // namespace laneloom

@@ -127,7 +127,7 @@ void set_security(const std::string& directory, DomainParticipantQos& qos) {
 int depth(TopicKind kind) {
   switch (kind) {
     case TopicKind::detections:
-    case TopicKind::objects:
+    case TopicKind::optional_input:
       return 64;  // some seconds, so that a busy host loses none
     case TopicKind::poses:
       return 512;
@@ -238,7 +238,7 @@ std::vector<ReliabilityQosPolicyKind> reader_reliabilities(TopicKind kind, bool 
       // one participant as soon as others read them, too.
       if (LANELOOM_FAST_DDS == 3 && has_identity) return {BEST_EFFORT_RELIABILITY_QOS};
       return {BEST_EFFORT_RELIABILITY_QOS, RELIABLE_RELIABILITY_QOS};
-    case TopicKind::objects:  // a message less costs little: the next one tells the same objects
+    case TopicKind::optional_input:  // a message less costs little: the next one tells the same
     case TopicKind::poses:
       return {BEST_EFFORT_RELIABILITY_QOS};  // a pose that has to be sent again comes after the next one
     case TopicKind::map:

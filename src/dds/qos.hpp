@@ -14,12 +14,12 @@ namespace laneloom::dds {
 
 /// The kinds of topics, by their quality of service.
 enum class TopicKind {
-  detections,  ///< to the service, some a second, large
-  poses,       ///< to the service, many a second, small
-  objects,     ///< to the service, some a second; the next message tells the same anew
-  map,         ///< from the service, at every tick; a late reader gets the newest message
-  status,      ///< from the service, now and then; a late reader gets the newest message
-  view         ///< from the service to viewers; a late reader gets the next message
+  detections,      ///< to the service, some a second, large
+  poses,           ///< to the service, many a second, small
+  optional_input,  ///< to the service, some a second; the next message tells the same anew
+  map,             ///< from the service, at every tick; a late reader gets the newest message
+  status,          ///< from the service, now and then; a late reader gets the newest message
+  view             ///< from the service to viewers; a late reader gets the next message
 };
 
 /// Throws ConfigError for a value that no participant can have. Fast DDS ends the process for some of them.

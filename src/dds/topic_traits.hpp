@@ -48,14 +48,14 @@ template <>
 struct TopicTraits<TrackedObjects> {
   using Type = CheckedType<msg::ObjectsPubSubType>;
   static constexpr auto kName = kObjectsTopic;
-  static constexpr auto kKind = TopicKind::objects;
+  static constexpr auto kKind = TopicKind::optional_input;
 };
 
 template <>
 struct TopicTraits<NextTurn> {
   using Type = CheckedType<msg::NextTurnPubSubType>;
   static constexpr auto kName = kNextTurnTopic;
-  static constexpr auto kKind = TopicKind::objects;  // it, too, is told anew some times a second
+  static constexpr auto kKind = TopicKind::optional_input;
 };
 
 template <>

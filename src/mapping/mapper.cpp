@@ -136,7 +136,7 @@ LocalMap assembled(const geometry::Scene& scene, markings::FusedMarkings fused, 
 void lead_on(const markings::StageLog& log, const std::optional<Way>& former, lanes::WishedTurn& turn,
              LocalMap& map) {
   const Way* const before = former ? &*former : nullptr;
-  turn.drive_to(map.T_map_body.translation());
+  turn.drive_to(map.T_map_body);
   std::optional<Way> way =
       way_ahead(LaneGraph(map), map.T_map_body, turn.wish(), before, {.turn_m = turn.range()});
   if (turn.is_over(before, way ? &*way : nullptr)) turn = {};

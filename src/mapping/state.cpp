@@ -50,7 +50,7 @@ void MapperState::follow(const Eigen::Isometry3d& motion, const MapperConfig& co
   side.forget_course();
   move(motion, map);
   for (Point& place : driven) move(motion, place);
-  turn.move(motion);
+  turn.forget_place();
   lines::LineMapper* const lines = fusion.lines();
   if (lines == nullptr) {
     fusion = Fusion(config);

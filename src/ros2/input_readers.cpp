@@ -41,13 +41,13 @@ InputReaders::InputReaders(const std::shared_ptr<dds::Participant::Impl>& partic
       odometry_(participant,
                 topic<OdometryType>(config.ros2, config.ros2.odometry_topic, kOdometryType, TopicKind::poses),
                 std::move(inputs.poses), in_frame_of<const Odometry_&, VehiclePose>(config, from_ros)),
-      objects_(participant,
-               topic<ObjectsType>(config.ros2, config.ros2.objects_topic, kObjectsType, TopicKind::objects),
-               std::move(inputs.objects),
-               in_frame_of<const TrackedObjects_&, TrackedObjects>(config, from_ros)),
+      objects_(
+          participant,
+          topic<ObjectsType>(config.ros2, config.ros2.objects_topic, kObjectsType, TopicKind::optional_input),
+          std::move(inputs.objects), in_frame_of<const TrackedObjects_&, TrackedObjects>(config, from_ros)),
       next_turns_(participant,
                   topic<dds::CheckedType<msg::NextTurnPubSubType>>(config.ros2, kNextTurnTopic, kNextTurnType,
-                                                                   TopicKind::objects),
+                                                                   TopicKind::optional_input),
                   std::move(inputs.next_turns),
                   in_frame_of<const msg::NextTurn&, NextTurn>(config, dds::from_msg)) {}
 

@@ -108,8 +108,7 @@ void IngestionQueue::push_optional(Input input, T&& message, std::int64_t arriva
   }
   if (queue(input).size() >= static_cast<std::size_t>(config_.queue_capacity)) {
     queue(input).pop_front();
-    const std::string kind = kInputNames.at(static_cast<std::size_t>(input));
-    state_.counters.add(kind + "_dropped_queue_full");
+    state_.counters.add(counter(input, "dropped_queue_full"));
   }
   push(queue(input), {std::forward<T>(message), arrival_ns});
 }

@@ -70,7 +70,7 @@ TEST_F(DriveCommand, DrivesOnTheMapOfARunningService) {
 TEST_F(DriveCommand, FollowsTheWayOfARunningServiceThatIsToldTheTurn) {
   const support::ChildProcess service = start("laneloomd" + dds_ + "turns", "log");
   ASSERT_TRUE(
-      done("--scenario t_intersection --noise none --duration 30 --dds --published-way --json "
+      done("--scenario intersection --noise none --duration 30 --dds --published-way --json "
            "--require-lane" +
            dds_ + "turns"))
       << text("log");

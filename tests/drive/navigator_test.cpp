@@ -15,7 +15,10 @@ TEST(Navigator, WantsTheTurnsOfTheDrive) {
   Navigator navigator(road, lanes);
   const Navigator::Start start = navigator.at_begin();
   EXPECT_NEAR((start.vehicle.rear_axle - road.drive.pose_at(0.0).position.head<2>()).norm(), 0.0, 0.2);
-  EXPECT_EQ(navigator.next_turn({}).turn, Linkage::Turn::left);
+  const auto ahead = [&](double north_m) { return navigator.next_turn({1.7, north_m, 0.0}); };
+  EXPECT_EQ(ahead(-100.0).turn, Linkage::Turn::left);
+  EXPECT_NEAR(ahead(-100.0).distance_m, 88.5 + 10.4, 1.0) << "to the edge, and half of the bend";
+  EXPECT_NEAR(ahead(-60.0).distance_m, 48.5 + 10.4, 1.0);
 }
 
 /// The lane that leads from the place of `start` into the intersection, and all that cross from its end.

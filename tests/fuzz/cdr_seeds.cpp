@@ -27,7 +27,9 @@ void write_all(const std::string& folder, const io::FrameRecord& seen, const Loc
   write(folder + "/pose", 1, seen.pose);
   write(folder + "/map", 2, PublishedMap{.frame_id = "map", .fused_frames = {{}}, .map = map});
   write(folder + "/markings", 3, RoadMarkings{.frame_id = "map", .markings = map.boundaries});
-  write(folder + "/status", 4,
+  write(folder + "/objects", 4, TrackedObjects{.stamp_ns = 1, .objects = {{.id = 1}}});
+  write(folder + "/next_turn", 5, NextTurn{.stamp_ns = 1, .turn = Linkage::Turn::left, .distance_m = 50.0});
+  write(folder + "/status", 6,
         ServiceStatus{.counters = {{"ticks", 1}}, .sources = {{.source = "camera"}}, .version = "1"});
 }
 

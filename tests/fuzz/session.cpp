@@ -74,6 +74,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     stamp_ns = step < 4 ? values.next<std::int64_t>() / 4 : stamp_ns + 100'000'000;
     const Point position(values.number(), values.number(), 0.0);
     session.add(VehiclePose{.stamp_ns = stamp_ns, .position = position});
+    if (values.next<std::uint8_t>() % 4 == 0)
+      session.add(NextTurn{.stamp_ns = stamp_ns,
+                           .turn = static_cast<Linkage::Turn>(values.next<std::uint8_t>() % 5),
+                           .distance_m = values.number()});
     session.add(frame(values, stamp_ns), stamp_ns);
     session.expire(stamp_ns);
     for (const Marking& marking : session.map().boundaries) {

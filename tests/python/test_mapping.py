@@ -179,7 +179,12 @@ def test_the_way_makes_the_next_turn(tmp_path):
     for frame, pose in laneloom.read_frames(road):
         mapper.update(frame, pose)
     assert mapper.map.way.wish == "straight"
-    mapper.add(laneloom.NextTurn(frame.stamp_ns, "left", distance=80), pose)
+    lines = road.read_text().splitlines()
+    told = json.loads(lines[-1]) | {"next_turn": {"turn": "left", "distance": 80}}
+    road.write_text("\n".join(lines[:-1] + [json.dumps(told)]))
+    (turn, at), = laneloom.read_next_turns(road)
+    assert (turn.stamp_ns, turn.turn, turn.distance) == (frame.stamp_ns, "left", 80)
+    mapper.add(turn, at)
     mapper.update(frame, pose)
     assert mapper.map.way.wish == "left"
 

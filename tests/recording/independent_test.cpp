@@ -52,7 +52,7 @@ class RandomRecording {
     for (unsigned seed = 0; seed < 60; ++seed) {
       // Log times jump, so that chunks overlap, but no two are equal.
       const std::int64_t log_time_ns = 1'700'000'000'000'000'000 + (seed * 7919 % 60) * 1000;
-      switch (seed % 5) {
+      switch (seed % 7) {
         case 0:
           write<DetectionFrame>(seed, log_time_ns);
           break;
@@ -64,6 +64,12 @@ class RandomRecording {
           break;
         case 3:
           write<RoadMarkings>(seed, log_time_ns);
+          break;
+        case 4:
+          write<TrackedObjects>(seed, log_time_ns);
+          break;
+        case 5:
+          write<NextTurn>(seed, log_time_ns);
           break;
         default:
           write<ServiceStatus>(seed, log_time_ns);

@@ -11,6 +11,7 @@ namespace laneloom {
 nlohmann::json json_of(const msg::Detections& message);
 nlohmann::json json_of(const msg::VehiclePose& message);
 nlohmann::json json_of(const msg::Objects& message);
+nlohmann::json json_of(const msg::NextTurn& message);
 nlohmann::json json_of(const msg::LaneMap& message);
 nlohmann::json json_of(const msg::RoadMarkings& message);
 nlohmann::json json_of(const msg::ServiceStatus& message);

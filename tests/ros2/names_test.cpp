@@ -36,7 +36,8 @@ TEST(TypeHashes, AreThoseOfRos) {
             "typehash=RIHS01_3559bd4e62ce8a4d96e32720c02bbe656cc090bb2b3f3f91f52a7c3ab095417a;");
   EXPECT_EQ(hash("rmw_dds_common/msg/ParticipantEntitiesInfo"),
             "typehash=RIHS01_91a0593bacdcc50ea9bdcf849a938b128412cc1ea821245c663bcd26f83c295e;");
-  for (const char* ours : {"laneloom_msgs/msg/Detections", "laneloom_msgs/msg/LaneMap"})
+  for (const char* ours :
+       {"laneloom_msgs/msg/Detections", "laneloom_msgs/msg/NextTurn", "laneloom_msgs/msg/LaneMap"})
     EXPECT_EQ(hash(ours).size(), hash("nav_msgs/msg/Odometry").size());
   EXPECT_THROW(hash("nav_msgs/msg/Path"), std::out_of_range);
 }

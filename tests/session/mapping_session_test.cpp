@@ -499,6 +499,10 @@ TEST_F(MappingSessionTest, ATurnLeadsTheWayFromItsStampOn) {
                                                           {"next_turns_refused_distance", 1},
                                                           {"next_turns_refused_repeated", 1},
                                                           {"next_turns_refused_unsynchronised", 1}}));
+  session_.add(turn(12'700, 500.0));
+  drive(13'000, 14'000, 2);  // another map
+  EXPECT_EQ(wish(), WayWish::straight);
+  EXPECT_EQ(session_.counters()["next_turns_refused_reset"], 1U);
 }
 
 }  // namespace

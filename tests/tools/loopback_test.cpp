@@ -44,6 +44,19 @@ class Loopback : public Commands {
     return condition();
   }
 
+  /// Adds a turn to each frame of a file.
+  void tell_turns(const std::string& frames) const {
+    std::vector<io::FrameRecord> records;
+    io::JsonLinesReader reader(file(frames));
+    while (auto record = reader.next_frame()) records.push_back(*std::move(record));
+    io::JsonLinesWriter out(file(frames));
+    for (io::FrameRecord& record : records) {
+      record.next_turn = NextTurn{.turn = Linkage::Turn::left, .distance_m = 80.0};
+      out.write(record);
+    }
+    out.close();
+  }
+
   static constexpr const char* kOk = "\"state\":\"OK\"";
   const std::string dds_ = " --domain " + std::to_string(own_domain()) + " --vehicle-id test";
 };
@@ -132,12 +145,13 @@ TEST_F(RecordedLoopback, AReplayMakesTheMapsThatTheServicePublished) {
   EXPECT_EQ(json_of("again.json").at("hash"), live.at("hash"));
 }
 
-TEST_F(Loopback, AReplayAnnouncesObjectsOnlyWhereThereAreSome) {
+TEST_F(Loopback, AReplayAnnouncesObjectsAndTurnsOnlyWhereThereAreSome) {
   DdsConfig dds;
   dds.domain = own_domain();
   for (const bool with_objects : {false, true}) {
     const std::string traffic = with_objects ? " --traffic usual" : "";
     ASSERT_TRUE(done("simulate --scenario straight --duration 1 --frames drive.jsonl" + traffic));
+    if (with_objects) tell_turns("drive.jsonl");
     const dds::Discovery discovery(dds, "test");
     const auto is_written = [&](const char* topic) {
       return std::ranges::any_of(discovery.endpoints(), [&](const dds::Endpoint& endpoint) {
@@ -149,7 +163,27 @@ TEST_F(Loopback, AReplayAnnouncesObjectsOnlyWhereThereAreSome) {
     // Writers are announced in the order in which they are made, and that of poses is the last.
     ASSERT_TRUE(eventually([&] { return is_written(dds::kVehiclePoseTopic); })) << text("replay.log");
     EXPECT_EQ(is_written(dds::kObjectsTopic), with_objects);
+    EXPECT_EQ(is_written(dds::kNextTurnTopic), with_objects);
   }
+}
+
+TEST_F(RecordedLoopback, TurnsArePublishedAndRecorded) {
+  ASSERT_TRUE(done("simulate --scenario straight --duration 4 --frames drive.jsonl"));
+  tell_turns("drive.jsonl");
+  record("replay drive.jsonl --publish", "live.mcap");
+  std::size_t turns = 0;
+  std::uint64_t fused = 0;
+  recording::RecordingReader reader(file("live.mcap"));
+  while (const auto message = reader.next()) {
+    if (const auto* turn = std::get_if<NextTurn>(&message->message))
+      turns += turn->turn == Linkage::Turn::left && turn->distance_m == 80.0 ? 1U : 0U;
+    if (const auto* status = std::get_if<ServiceStatus>(&message->message))
+      for (const auto& [name, count] : status->counters)
+        if (name == "next_turns_fused") fused = count;
+  }
+  EXPECT_GT(turns, 30U);
+  EXPECT_GT(fused, 0U);
+  ASSERT_TRUE(done("replay live.mcap --verify"));
 }
 
 TEST_F(Loopback, ThePlannerOutlivesTheService) {

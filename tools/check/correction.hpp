@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
@@ -40,5 +41,10 @@ DetectionFrame corrected(DetectionFrame frame, const Correction& correction,
 /// Objects as they are meant, in the body frame. They are in the frame and the unit of the points. Those
 /// that are said to be in the map frame are taken from there.
 TrackedObjects corrected(TrackedObjects objects, Correction correction, const Eigen::Isometry3d& T_map_body);
+/// A turn has no coordinates.
+inline NextTurn corrected(const NextTurn& turn, const Correction& /*correction*/,
+                          const Eigen::Isometry3d& /*T_map_body*/) {
+  return turn;
+}
 
 }  // namespace laneloom::check

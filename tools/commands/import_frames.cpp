@@ -82,6 +82,7 @@ void import_frames(const ImportFramesOptions& options) {
   std::vector<DetectionFrame> frames = frames_of_all_sources(drive);
   std::size_t without_pose = correct(frames, track, options.correction);
   correct(drive.objects, track, options.correction);
+  correct(drive.next_turns, track, options.correction);
   without_pose += imports::drop_frames_without_pose(frames, poses);
   if (frames.empty()) throw std::runtime_error(options.drive + ": no frame is within the poses");
   const imports::OtherInputs others{std::move(drive.objects), std::move(drive.next_turns)};

@@ -117,12 +117,12 @@ Finding refusal(std::string_view by_whom, std::string_view subject, std::string_
                 std::uint64_t count) {
   const bool at_the_door = subject == "datagrams";
   const Refusal why = at_the_door ? explain_refused_datagrams(reason) : explain_refusal(subject, reason);
-  return {
-      io::printable(fmt::format("{}_refused_{}", subject, reason)),
-      io::printable(fmt::format("{} refused {} {} ({}): {}.", by_whom, count, subject, reason, why.cause)),
-      at_the_door ? "What is refused does not reach DDS: nothing was done by it."
-                  : "What is refused is not mapped.",
-      std::string(why.remedy)};
+  return {io::printable(fmt::format("{}_refused_{}", subject, reason)),
+          io::printable(fmt::format("{} refused {} {} ({}): {}.", by_whom, count,
+                                    subject == "next_turns" ? "turns" : subject, reason, why.cause)),
+          at_the_door ? "What is refused does not reach DDS: nothing was done by it."
+                      : "What is refused is not mapped.",
+          std::string(why.remedy)};
 }
 
 void judge_counter(const std::string& counter, std::uint64_t rise, Findings& found) {

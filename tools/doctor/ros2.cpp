@@ -44,6 +44,15 @@ RosInput objects_of(const Ros2Config& ros2) {
           false};
 }
 
+RosInput next_turns_of(const Ros2Config& ros2) {
+  return {"turns",
+          ros2::dds_topic(ros2, ros2::kNextTurnTopic),
+          ros2::dds_type(ros2::kNextTurnType),
+          "ros2.namespace",
+          dds::kNextTurnTopic,
+          false};
+}
+
 /// The section ros2 of the service's configuration. None: there is no service, or it told nothing.
 std::optional<Ros2Config> ros2_of(const Observed& seen) {
   if (seen.services.empty()) return std::nullopt;
@@ -115,6 +124,11 @@ bool ros_writes_objects(const Observed& seen) {
   return ros2 && ros2->enabled && is_written(seen, objects_of(*ros2));
 }
 
+bool ros_writes_next_turns(const Observed& seen) {
+  const auto ros2 = ros2_of(seen);
+  return ros2 && ros2->enabled && is_written(seen, next_turns_of(*ros2));
+}
+
 bool is_of_ros(const Endpoint& endpoint) { return endpoint.type.find("::dds_::") != std::string::npos; }
 
 Findings ros_findings(const Observed& seen) {
@@ -124,6 +138,7 @@ Findings ros_findings(const Observed& seen) {
   judge(seen, *ros2, detections_of(*ros2), found);
   judge(seen, *ros2, poses_of(*ros2), found);
   judge(seen, *ros2, objects_of(*ros2), found);
+  judge(seen, *ros2, next_turns_of(*ros2), found);
   return found;
 }
 

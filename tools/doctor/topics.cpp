@@ -31,7 +31,8 @@ constexpr std::array kTopics{
           ros_writes_detections},
     Topic{"poses", "poses", dds::kVehiclePoseTopic, dds::kVehiclePoseType, true, true, ros_writes_poses},
     Topic{"objects", "objects", dds::kObjectsTopic, dds::kObjectsType, true, false, ros_writes_objects},
-    Topic{"next_turn", "the next turn", dds::kNextTurnTopic, dds::kNextTurnType, true, false},
+    Topic{"next_turn", "the next turn", dds::kNextTurnTopic, dds::kNextTurnType, true, false,
+          ros_writes_next_turns},
     Topic{"lane_map", "the lane map", dds::kLaneMapTopic, dds::kLaneMapType, false, false},
     Topic{"road_markings", "the road markings", dds::kRoadMarkingsTopic, dds::kRoadMarkingsType, false,
           false}};

@@ -9,7 +9,6 @@ DdsMapService::DdsMapService(const DdsConfig& dds)
       detections_(participant_),
       poses_(participant_),
       objects_(participant_),
-      next_turns_(participant_),
       maps_(participant_, {.sample = [this](PublishedMap&& map) { take(std::move(map)); },
                            .refused = {},
                            .matched = {},
@@ -26,6 +25,11 @@ bool DdsMapService::connected() const {
 std::uint64_t DdsMapService::received() const {
   const std::lock_guard lock(mutex_);
   return received_;
+}
+
+void DdsMapService::send(const NextTurn& turn) {
+  if (!next_turns_) next_turns_.emplace(participant_);
+  next_turns_->write(turn);
 }
 
 void DdsMapService::take(PublishedMap&& map) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 
 #include "drive/map_service.hpp"
 #include "laneloom/dds/reader.hpp"
@@ -21,7 +22,7 @@ class DdsMapService : public MapService {
   void send(const VehiclePose& pose) override { poses_.write(pose); }
   void send(const DetectionFrame& frame, std::int64_t) override { detections_.write(frame); }
   void send(const TrackedObjects& objects) override { objects_.write(objects); }
-  void send(const NextTurn& turn) override { next_turns_.write(turn); }
+  void send(const NextTurn& turn) override;
   const LocalMap& newest(std::int64_t) override;
 
  private:
@@ -36,8 +37,8 @@ class DdsMapService : public MapService {
   dds::Writer<DetectionFrame> detections_;
   dds::Writer<VehiclePose> poses_;
   dds::Writer<TrackedObjects> objects_;
-  dds::Writer<NextTurn> next_turns_;
-  dds::Reader<PublishedMap> maps_;  // last: its callbacks end first
+  std::optional<dds::Writer<NextTurn>> next_turns_;  ///< from the first one on
+  dds::Reader<PublishedMap> maps_;                   // last: its callbacks end first
 };
 
 }  // namespace laneloom::drive

@@ -30,8 +30,8 @@ struct Plan {
 /// What leads a plan.
 struct Guide {
   WayWish wish = WayWish::straight;
-  bool by_published_way =
-      false;  ///< the way of the map, which fulfils the wish, rather than one of the plan's own
+  /// The way of the map, which fulfils the wish, rather than one of the plan's own.
+  bool by_published_way = false;
 };
 
 /// Plans the path of the vehicle on a map: along the way that the map has from where the previous plan leads.

@@ -75,6 +75,14 @@ std::vector<TrackedObject> tracked_objects(const json& items, const FrameReading
   return out;
 }
 
+/// The next turn of the route, at the stamp of a frame; none: nothing is told.
+std::optional<NextTurn> next_turn(const json& object, const DetectionFrame& frame) {
+  std::optional<NextTurn> turn = optional(object, "next_turn", FromJson::element<NextTurn>);
+  if (!turn) return turn;
+  if (turn->distance_m < 0.0) throw JsonError("next_turn", "must not be negative");
+  return NextTurn{frame.stamp_ns, frame.sequence, frame.session_id, turn->turn, turn->distance_m};
+}
+
 /// The types that the network can detect.
 std::vector<MarkingType> detected_types(const json& items, const Classes& classes) {
   std::vector<MarkingType> types;
@@ -156,9 +164,8 @@ FrameRecord frame_from_json(std::string_view text, const FrameReading& reading) 
   const auto can_be_read = [&](const json& items) { return tracked_objects(items, reading); };
   if (auto objects = optional(object, "objects", can_be_read))
     record.objects = TrackedObjects{frame.stamp_ns, frame.sequence, frame.session_id, *std::move(objects)};
-  if (auto turn = optional(object, "next_turn", FromJson::element<NextTurn>)) {
-    record.next_turn = {frame.stamp_ns, frame.sequence, frame.session_id, turn->turn, turn->distance_m};
-  }
+  take_or_leave_out(reading.left_out, reading.place + ".", "next_turn",
+                    [&] { record.next_turn = next_turn(object, frame); });
   return record;
 }
 

@@ -29,7 +29,7 @@
 ///      "field_of_view": [[x, y, z], …], "occluded_areas": [[[x, y, z], …], …],
 ///      "objects": [{"id": 1, "kind": "car", "position": [x, y, z], "heading": [x, y, z], "speed": 8.0,
 ///                   "existence": 0..1 or -1, "stddev": 0.3, "length": 4.5, "width": 1.8}, …],
-///      "next_turn": {"turn": "left" | "right" | "straight" | "unknown", "distance": 80}}
+///      "next_turn": {"turn": "unknown" | "straight" | "left" | "right" | "u_turn", "distance": 80}}
 ///
 /// The pose is T_map_body at t, points are in the body frame, metres. A detection's style and stddev, and
 /// everything from stamp_ns on, may be left out, and of an object all but id and position; stamp_ns is exact
@@ -89,7 +89,7 @@ struct FrameConventions {
 
 /// How a frame is read.
 struct FrameReading {
-  LeftOut& left_out;    ///< detections and objects that are wrong are left out, unless that is strict
+  LeftOut& left_out;    ///< detections, objects and turns that are wrong are left out, unless that is strict
   std::string place{};  ///< of the frame, where something is left out
   FrameConventions conventions{};  ///< of the frame
 };

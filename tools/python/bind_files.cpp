@@ -41,8 +41,8 @@ path: a recording where it ends with .mcap, which must not exist yet; else JSON 
 frames: pairs (Frame, Pose); a pose is taken to be of its frame's stamp. Of a recording, stamps ascend
 objects: pairs (Objects, Pose), whose stamps ascend; in JSON lines, each of them has the stamp of a frame
 
-In a recording, sequences are counted up from 1, in session 1, and the poses are those of the frames. RuntimeError: the
-file cannot be written.)";
+In a recording, sequences are counted up from 1, in session 1, and the poses are those of the frames. Turns are not
+written. RuntimeError: the file cannot be written.)";
 
 constexpr const char* kReadMapsDoc = R"(The maps of a file: [LocalMap, ...], in the order of their stamps.
 
@@ -102,6 +102,10 @@ py::list read_frames(const py::object& file) {
 
 py::list read_objects(const py::object& file) {
   return read_pairs<SeenObjects>(file, evaluation::for_each_objects);
+}
+
+py::list read_next_turns(const py::object& file) {
+  return read_pairs<SeenTurn>(file, evaluation::for_each_next_turn);
 }
 
 void write_recording(const std::string& file, const std::vector<SeenFrame>& seen,
@@ -263,6 +267,8 @@ void bind_files(py::module_& module) {
              "The same as read_maps(), one after the other: a long file takes little memory.");
   module.def("read_frames", &read_frames, arg("path"), kReadFramesDoc);
   module.def("read_objects", &read_objects, arg("path"), kReadObjectsDoc);
+  module.def("read_next_turns", &read_next_turns, arg("path"),
+             "The turns of a file: [(NextTurn, Pose), ...], read as read_objects() reads objects.");
   module.def("write_frames", &write_frames, arg("path"), arg("frames"), arg("objects") = py::tuple(),
              kWriteFramesDoc);
   module.def("read_maps", &read_maps, arg("path"), kReadMapsDoc);

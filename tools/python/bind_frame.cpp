@@ -56,7 +56,7 @@ would refuse.)";
 constexpr const char* kNextTurnDoc = R"(Where the vehicle's route turns next, as its navigation tells it.
 
 stamp_ns: time of the sensor in nanoseconds, above 0
-turn: "left" or "right"; "straight" or "unknown": the way leads straight on
+turn: "left" or "right"; with "straight", "unknown" or "u_turn" the way leads straight on
 distance: along the road to the middle of the intersection, in metres
 
 ValueError: the distance is negative, or whatever else the service would refuse.)";

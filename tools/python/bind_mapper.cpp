@@ -34,7 +34,7 @@ pose: Pose of the vehicle at the frame's stamp. Poses of one drive are in one ma
 constexpr const char* kAddDoc =
     R"(Takes what a tracker follows, or the next turn of the route. The next update() uses it.
 
-seen: Objects, in the order of their stamps, and of their sessions where stamps are equal; or NextTurn
+objects: Objects, in the order of their stamps, and of their sessions where stamps are equal; or NextTurn
 pose: Pose of the vehicle at its stamp)";
 
 /// A mapper that several threads may use, one at a time.

@@ -40,6 +40,12 @@ struct SeenObjects {
 
 /// Converts a pair (Frame, Pose), as read_frames() gives it.
 SeenFrame seen_frame(const py::handle& value, const std::string& name);
+/// A turn and the pose at its stamp.
+struct SeenTurn {
+  NextTurn turn;
+  VehiclePose pose;
+};
+
 /// Converts a pair (Objects, Pose), as read_objects() gives it.
 SeenObjects seen_objects(const py::handle& value, const std::string& name);
 /// Converts a list of such pairs, whose stamps must ascend.

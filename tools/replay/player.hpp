@@ -18,7 +18,7 @@ struct OptionalTopics {
   bool objects = false, next_turns = false;
 };
 
-/// Those that there are messages of among what a source has left. It reads up to the first ones.
+/// The optional topics of which the rest of a source has messages. Reads up to the first message of each.
 OptionalTopics optional_topics(MessageSource& source);
 
 /// Publishes recorded detections, poses, objects and turns again, byte for byte, as their participants did.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 
 #include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/smooth_step.hpp"
@@ -18,135 +16,7 @@ using Turn = Linkage::Turn;
 
 constexpr double kMinGap_m = 3.0;  // a longer one is bridged by a bend, a shorter one by smoothing
 constexpr double kBendStep_m = 1.0;
-constexpr double kBranch_m = 1.5;        // that a branch lies further aside than the lane that goes on
 constexpr double kBeyondBorder_m = 0.5;  // as far the vehicle is in a lane of the way before
-constexpr double kLookout_m = 25.0;      // ahead of a lane's end
-
-Turn turn_of(WayWish wish) {
-  if (wish == WayWish::left) return Turn::left;
-  return wish == WayWish::right ? Turn::right : Turn::straight;
-}
-
-/// How far a passage steps to the left from straight ahead.
-double left_of_ahead_m(const DirectedLane& from, const Passage& passage) {
-  const Polyline line = from.centerline();
-  return cross(end_direction(line, End::back), (begin_point(passage.to) - line.back()).head<2>());
-}
-
-/// Leaves out passages that step aside where another one of the same turn leads on: the branches of forks.
-void leave_out_branches(const DirectedLane& from, std::vector<Passage>& passages) {
-  const auto aside_m = [&](const Passage& passage) { return std::abs(left_of_ahead_m(from, passage)); };
-  const auto is_branch = [&](const Passage& one) {
-    return std::ranges::any_of(passages, [&](const Passage& other) {
-      return other.turn == Turn::straight && !other.to.oncoming() &&
-             aside_m(one) > aside_m(other) + kBranch_m;
-    });
-  };
-  std::vector<Passage> kept;
-  std::ranges::copy_if(passages, std::back_inserter(kept), [&](const Passage& passage) {
-    return passage.turn != Turn::straight || !is_branch(passage);
-  });
-  passages = std::move(kept);
-}
-
-bool is_offered(const std::vector<Passage>& passages, Turn turn) {
-  return std::ranges::find(passages, turn, &Passage::turn) != passages.end();
-}
-
-/// Of passages that lead straight on, leaves those furthest to the side of a turn.
-void keep_branch(const DirectedLane& from, Turn side, std::vector<Passage>& passages) {
-  const auto to_side_m = [&](const Passage& passage) {
-    return (side == Turn::left ? 1.0 : -1.0) * left_of_ahead_m(from, passage);
-  };
-  double furthest_m = -std::numeric_limits<double>::infinity();
-  for (const Passage& passage : passages)
-    if (passage.turn == Turn::straight && !passage.to.oncoming())
-      furthest_m = std::max(furthest_m, to_side_m(passage));
-  std::erase_if(passages, [&](const Passage& passage) {
-    return passage.turn == Turn::straight && to_side_m(passage) < furthest_m - kBranch_m;
-  });
-}
-
-/// Where a lane forks, leaves the passages of the branch that is wished.
-void choose_branch(const DirectedLane& from, Turn wished, const RouteWish& wish,
-                   std::vector<Passage>& passages) {
-  const bool forks_off = wish.turn_m && wished != Turn::straight && !is_offered(passages, wished);
-  if (forks_off)
-    keep_branch(from, wished, passages);
-  else
-    leave_out_branches(from, passages);
-}
-
-/// The passage to take. A passage that was chosen before stays, even where its turn or its probability is
-/// judged anew, unless another one makes the wished turn at last. Null: there is none.
-const Passage* chosen(const std::vector<Passage>& passages, Turn wished, const Way* before) {
-  for (const Passage& passage : passages) {
-    const WayLane* kept = find(before, passage.to);
-    if (kept == nullptr || kept->entry == Turn::unknown) continue;
-    if (!is_offered(passages, wished) || passage.turn == wished || kept->entry == wished) return &passage;
-  }
-  return best_passage(passages, wished);
-}
-
-bool is_walked(const std::vector<Passage>& way, const DirectedLane& first, const Lane* lane) {
-  return lane == first.lane ||
-         std::ranges::any_of(way, [&](const Passage& passage) { return passage.to.lane == lane; });
-}
-
-/// Whether an edge that was seen lies across the road ahead of a lane's end.
-bool is_closed_ahead(const LaneGraph& graph, const DirectedLane& lane) {
-  const Polyline line = lane.centerline();
-  Point ahead = line.back();
-  ahead.head<2>() += kLookout_m * end_direction(line, End::back);
-  return std::ranges::any_of(graph.map().boundaries, [&](const Marking& boundary) {
-    return boundary.type == MarkingType::roadedge && boundary.status != ElementStatus::inferred &&
-           intersect({line.back(), ahead}, boundary.points, geometry::kLevel_m);
-  });
-}
-
-/// Whether a passage turns off where the road may lead straight on: across an intersection whose far side is
-/// not seen yet.
-bool turns_off(const LaneGraph& graph, const DirectedLane& from, const Passage& passage) {
-  if (passage.turn == Turn::straight || passage.turn == Turn::unknown) return false;
-  const bool bends = from.against ? is_between_the_same(*passage.to.lane, *from.lane)
-                                  : is_between_the_same(*from.lane, *passage.to.lane);
-  return !bends && !is_closed_ahead(graph, from);
-}
-
-/// The turn that is wished at the end of a lane, `ahead_m` ahead of the vehicle and behind these passages.
-Turn turn_behind(const std::vector<Passage>& passages, const RouteWish& wish, double ahead_m) {
-  const Turn wished = turn_of(wish.wish);
-  const bool is_there = !wish.turn_m || (wish.turn_m->from_m <= ahead_m && ahead_m <= wish.turn_m->to_m);
-  return is_there && !is_offered(passages, wished) ? wished : Turn::straight;
-}
-
-/// The passages over `reach_m` from the beginning of a lane. The first one leads into `into`, if that is a
-/// lane.
-std::vector<Passage> passages_ahead(const LaneGraph& graph, const RouteStart& start, const RouteWish& wish,
-                                    double reach_m) {
-  std::vector<Passage> way;
-  DirectedLane last = start.lane;
-  for (double length_m = length(last.lane->centerline); length_m < reach_m;) {
-    std::vector<Passage> next = graph.successors(last);
-    const bool is_begun = way.empty() && start.into != kNoElement;
-    const Turn wished = turn_behind(way, wish, length_m - start.arc_m);
-    std::erase_if(next, [&](const Passage& passage) {
-      const bool elsewhere = is_begun && passage.to.lane->id != start.into;
-      const bool wrong =
-          !is_begun && !wish.any_turn && passage.turn != wished && turns_off(graph, last, passage);
-      return elsewhere || wrong || is_walked(way, start.lane, passage.to.lane) ||
-             !passage.to.lane->is_drivable();
-    });
-    if (!is_begun) choose_branch(last, wished, wish, next);
-    const Passage* best = chosen(next, wished, wish.before);
-    if (best == nullptr) break;
-    const double gap_m = (begin_point(best->to) - last.centerline().back()).norm();
-    last = best->to;
-    length_m += std::max(gap_m, length(best->path)) + length(last.lane->centerline);
-    way.push_back(*best);
-  }
-  return way;
-}
 
 /// Joins lines to a route.
 class RouteBuilder {
@@ -239,7 +109,7 @@ bool append_driven(const LaneGraph& graph, const Way* before, Turn turn, double 
   if (driven.to.lane == nullptr) return true;
   append(builder, {.to = driven.to, .path = {}, .turn = turn});
   const double left_m = to_m - route.points.back().along_m + length(driven.to.lane->centerline);
-  for (const Passage& passage : passages_ahead(graph, {.lane = driven.to}, {.before = before}, left_m))
+  for (const Passage& passage : passages_ahead(graph, {.lane = driven.to}, {.before = before}, left_m).all)
     append(builder, passage);
   return true;
 }
@@ -248,8 +118,8 @@ bool append_driven(const LaneGraph& graph, const Way* before, Turn turn, double 
 void append_behind(const LaneGraph& graph, const RouteStart& start, double behind_m, RouteBuilder& builder) {
   const DirectedLane back{start.lane.lane, !start.lane.against};
   const double lane_m = length(start.lane.lane->centerline);
-  const auto behind =
-      passages_ahead(graph, {.lane = back}, {.any_turn = true}, lane_m - start.arc_m + behind_m);
+  const std::vector<Passage> behind =
+      passages_ahead(graph, {.lane = back}, {.any_turn = true}, lane_m - start.arc_m + behind_m).all;
   for (auto passage = behind.rbegin(); passage != behind.rend(); ++passage) {
     const DirectedLane from{passage->to.lane, !passage->to.against};
     const MeasuredPolyline line(from.centerline());
@@ -312,7 +182,10 @@ std::optional<RouteStart> start_on_passage(const LaneGraph& graph, const Eigen::
         std::abs(along) - 0.1 * foot.distance_m + 1.0 + (find(before, into) != nullptr ? 1.0 : 0.0);
     if (worth <= best_worth) continue;
     best_worth = worth;
-    start = RouteStart{{from, against}, length(from->centerline), to->id};
+    start = RouteStart{.lane = {from, against},
+                       .arc_m = length(from->centerline),
+                       .into = to->id,
+                       .passed_m = against ? line.length() - foot.arc_m : foot.arc_m};
   }
   return start;
 }
@@ -323,13 +196,6 @@ bool is_kept(const LaneGraph& graph, const RouteStart& start, const Way* before)
 }
 
 }  // namespace
-
-const WayLane* find(const Way* way, const DirectedLane& lane) {
-  if (way == nullptr) return nullptr;
-  const auto found = std::ranges::find_if(
-      way->lanes, [&](const WayLane& one) { return one.id == lane.lane->id && one.against == lane.against; });
-  return found == way->lanes.end() ? nullptr : &*found;
-}
 
 std::optional<RouteStart> start_of(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body,
                                    const RouteWish& wish) {
@@ -348,12 +214,13 @@ Route route_through(const LaneGraph& graph, const RouteStart& start, const Route
   if (start.arc_m < behind_m) append_behind(graph, start, behind_m - start.arc_m, builder);
   const MeasuredPolyline own(start.lane.centerline());
   const double from_m = std::max(0.0, start.arc_m - behind_m);
-  const double vehicle_m = (route.points.empty() ? 0.0 : route.points.back().along_m) + start.arc_m - from_m;
+  const double vehicle_m =
+      (route.points.empty() ? 0.0 : route.points.back().along_m) + start.arc_m - from_m + start.passed_m;
   builder.append(from_m < own.length() ? own.slice({from_m, own.length()}) : own.points(),
                  {.lane = start.lane}, from_m < own.length() ? from_m : 0.0);
-  const std::vector<Passage> passages = passages_ahead(graph, start, wish, start.arc_m + ahead_m);
-  for (const Passage& passage : passages) append(builder, passage);
-  const Turn turn = turn_behind(passages, wish, route.points.back().along_m - vehicle_m);
+  const Passages passages = passages_ahead(graph, start, wish, start.arc_m + ahead_m);
+  for (const Passage& passage : passages.all) append(builder, passage);
+  const Turn turn = passages.wished(wish, route.points.back().along_m - vehicle_m);
   append_driven(graph, wish.before, turn, behind_m + ahead_m, builder);
   return route;
 }
@@ -364,7 +231,8 @@ Route route_into(const LaneGraph& graph, const DirectedLane& lane, const Eigen::
   RouteBuilder builder(route);
   builder.append({T_map_body * Point(range.from_m, 0.0, 0.0), T_map_body.translation()}, {.lane = {}});
   append(builder, {.to = lane, .path = {}, .turn = Turn::straight});
-  for (const Passage& passage : passages_ahead(graph, {.lane = lane}, wish, range.to_m))
+  const double gap_m = (begin_point(lane) - T_map_body.translation()).norm();
+  for (const Passage& passage : passages_ahead(graph, {.lane = lane, .arc_m = -gap_m}, wish, range.to_m).all)
     append(builder, passage);
   return route;
 }

@@ -4,8 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "laneloom/lane_graph.hpp"
-#include "laneloom/way.hpp"
+#include "mapping/lanes/way_passages.hpp"
 
 /// The lanes and passages that a way leads through.
 namespace laneloom::lanes {
@@ -37,27 +36,9 @@ struct Route {
   std::vector<RouteJoint> joints;
 };
 
-/// A place from which a route leads on.
-struct RouteStart {
-  DirectedLane lane;
-  double arc_m = 0.0;           ///< along the lane, as it is walked
-  ElementId into = kNoElement;  ///< on the passage from the lane's end into this lane, if not kNoElement
-};
-
-/// What decides where lanes fork.
-struct RouteWish {
-  WayWish wish = WayWish::straight;
-  const Way* before = nullptr;         ///< null: there is none
-  std::optional<Stretch> turn_m = {};  ///< where the wished turn is, ahead of the vehicle
-  bool any_turn = false;  ///< another turn than the wished one is taken where the road may lead straight on
-};
-
 /// The greatest distance of a vehicle from a line that it drives on without a lane, and the least cosine
 /// between its heading and that line.
 inline constexpr double kMaxBesidePath_m = 1.75, kMinAlongPath = 0.7;
-
-/// The lane of a way, walked in the same sense. Null: the way does not lead through it, or is null.
-const WayLane* find(const Way* way, const DirectedLane& lane);
 
 /// The place of the vehicle: in a lane, or else on a passage. Empty: in neither.
 std::optional<RouteStart> start_of(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body,

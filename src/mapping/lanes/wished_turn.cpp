@@ -1,7 +1,6 @@
 #include "mapping/lanes/wished_turn.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace laneloom::lanes {
 namespace {
@@ -17,20 +16,21 @@ WayWish wish_of(Turn turn) {
 
 }  // namespace
 
-WishedTurn::WishedTurn(const NextTurn& turn, Point place)
-    : wish_(wish_of(turn.turn)), distance_m_(turn.distance_m), place_(std::move(place)) {}
+WishedTurn::WishedTurn(const NextTurn& turn, const Point& place)
+    : wish_(wish_of(turn.turn)), distance_m_(turn.distance_m), place_(place) {}
 
 Stretch WishedTurn::range() const { return {distance_m_ - kBefore_m, distance_m_ + kBehind_m}; }
 
-void WishedTurn::drive_to(const Point& place) {
-  distance_m_ -= (place - place_).head<2>().norm();
+void WishedTurn::drive_to(const Eigen::Isometry3d& T_map_body) {
+  const Point place = T_map_body.translation();
+  if (place_) distance_m_ -= T_map_body.linear().col(0).dot(place - *place_);
   place_ = place;
 }
 
 bool WishedTurn::is_over(const Way* before, const Way* now) const {
   if (wish_ == WayWish::straight) return false;
   if (range().to_m < 0.0) return true;
-  if (before == nullptr || now == nullptr) return false;
+  if (range().from_m > 0.0 || before == nullptr || now == nullptr) return false;
   const Turn turn = wish_ == WayWish::left ? Turn::left : Turn::right;
   return std::ranges::any_of(before->lanes, [&](const WayLane& lane) {
     return lane.entry == turn && lane.id == now->stations.front().lane;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Geometry>
+#include <optional>
+
 #include "laneloom/next_turn.hpp"
 #include "laneloom/way.hpp"
 
@@ -9,21 +12,21 @@ namespace laneloom::lanes {
 class WishedTurn {
  public:
   WishedTurn() = default;  ///< straight on
-  /// `place` is that of the vehicle at the stamp of the turn.
-  WishedTurn(const NextTurn& turn, Point place);
+  /// `place` is that of the vehicle at the stamp of the turn, map frame.
+  WishedTurn(const NextTurn& turn, const Point& place);
 
   WayWish wish() const { return wish_; }
-  /// Where the lane ends that is left for the turn, ahead of the vehicle. A lane ends before the middle of
+  /// Where the lane ends from which the turn is made, ahead of the vehicle. A lane ends before the middle of
   /// the intersection, and a navigation's distance is wrong by some metres.
   Stretch range() const;
 
-  /// The vehicle has driven on.
-  void drive_to(const Point& place);
+  /// The vehicle has driven on; backwards, the turn is further again.
+  void drive_to(const Eigen::Isometry3d& T_map_body);
   /// Whether the vehicle has turned, or is past the place. `before` was the way of the map before.
   bool is_over(const Way* before, const Way* now) const;
 
-  /// Moves the place of the vehicle, map frame.
-  void move(const Eigen::Isometry3d& motion) { place_ = motion * place_; }
+  /// The poses have jumped: where the vehicle was is not known.
+  void forget_place() { place_.reset(); }
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -32,8 +35,8 @@ class WishedTurn {
 
  private:
   WayWish wish_ = WayWish::straight;
-  double distance_m_ = 0.0;      ///< to the middle of the intersection
-  Point place_ = Point::Zero();  ///< of the vehicle, map frame
+  double distance_m_ = 0.0;     ///< to the middle of the intersection
+  std::optional<Point> place_;  ///< of the vehicle, map frame
 };
 
 }  // namespace laneloom::lanes

@@ -88,6 +88,31 @@ TEST(WayRoute, TurnsWhereTheTurnIs) {
   EXPECT_THAT(way(5, {25, 45}), ElementsAre(1, 2, 3)) << "no street is there";
 }
 
+TEST(WayRoute, ABendToThatSideIsNotTheTurn) {
+  LocalMap map;
+  map.lanes = {road_lane(1, {0, 0, 0}, {20, 0, 0}), road_lane(2, {32, -12, 0}, {32, -40, 0}),
+               road_lane(3, {20, -52, 0}, {-20, -52, 0}), road_lane(4, {32, -52, 0}, {32, -90, 0})};
+  map.linkages = {link(1, 2, Turn::right, test::arc({20, -12, 0}, 12.0, 90, 0)), link(2, 4),
+                  link(2, 3, Turn::right, test::arc({20, -40, 0}, 12.0, 0, -90))};
+  map.boundaries = {test::marking(9, {{40, -8, 0}, {40, 8, 0}}, MarkingType::roadedge)};
+  const WayOptions options{.reach_m = 90.0, .turn_m = Stretch{50, 75}};
+  EXPECT_THAT(ids(way_on(map, test::at(5), WayWish::right, nullptr, options)), ElementsAre(1, 2, 3));
+}
+
+TEST(WayRoute, TheTurnIsMeasuredFromTheVehicleOnAPassageAndBeforeALane) {
+  const LocalMap map = two_streets();
+  const auto way = [](const LocalMap& on, double x, const Stretch& turn_m) {
+    return ids(way_on(on, test::at(x), WayWish::left, nullptr, {.reach_m = 90.0, .turn_m = turn_m}));
+  };
+  EXPECT_THAT(way(map, 26, {30, 36}), ElementsAre(2, 5)) << "between lanes 1 and 2";
+  EXPECT_THAT(way(map, 26, {37, 60}), ElementsAre(2, 3));
+  LocalMap ahead = map;
+  std::erase_if(ahead.lanes, [](const Lane& lane) { return lane.id == 1; });
+  std::erase_if(ahead.linkages, [](const Linkage& one) { return one.from == 1; });
+  EXPECT_THAT(way(ahead, 20, {36, 44}), ElementsAre(2, 5)) << "in no lane";
+  EXPECT_THAT(way(ahead, 20, {22, 34}), ElementsAre(2, 3)) << "in no lane";
+}
+
 TEST(WayRoute, WhereNoLaneTurnsTheBranchToThatSideIsTaken) {
   LocalMap map;
   map.lanes = {road_lane(1, {0, 0, 0}, {20, 0, 0}), road_lane(2, {24, 0, 0}, {80, 0, 0}),

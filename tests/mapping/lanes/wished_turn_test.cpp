@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mapping/shapes.hpp"
+
 namespace laneloom::lanes {
 namespace {
 
@@ -19,11 +21,15 @@ TEST(WishedTurn, ComesNearerAsTheVehicleDrives) {
   WishedTurn turn = left_in(80.0);
   EXPECT_EQ(turn.wish(), WayWish::left);
   const double from_m = turn.range().from_m;
-  turn.drive_to({130, 40, 5});
-  EXPECT_EQ(turn.range().from_m, from_m - 50.0) << "along the ground";
-  turn.move(Eigen::Isometry3d(Eigen::Translation3d(1000, 0, 0)));
-  turn.drive_to({1130, 50, 5});
-  EXPECT_EQ(turn.range().from_m, from_m - 60.0) << "the map frame has jumped, the vehicle has not";
+  turn.drive_to(test::at(130));
+  EXPECT_NEAR(turn.range().from_m, from_m - 30.0, 1e-9);
+  turn.drive_to(test::at(129.5, 0.1));
+  EXPECT_NEAR(turn.range().from_m, from_m - 29.5, 1e-9) << "while it stands, its pose goes to and fro";
+  turn.forget_place();
+  turn.drive_to(test::at(1130));
+  EXPECT_NEAR(turn.range().from_m, from_m - 29.5, 1e-9) << "the map frame has jumped, the vehicle has not";
+  turn.drive_to(test::at(1140));
+  EXPECT_NEAR(turn.range().from_m, from_m - 39.5, 1e-9);
 }
 
 TEST(WishedTurn, IsOverInTheLaneThatItLeadsInto) {
@@ -35,13 +41,14 @@ TEST(WishedTurn, IsOverInTheLaneThatItLeadsInto) {
   EXPECT_FALSE(turn.is_over(&straight, &now)) << "it went straight on";
   EXPECT_FALSE(turn.is_over(nullptr, &now));
   EXPECT_FALSE(turn.is_over(&into, nullptr)) << "across the intersection";
+  EXPECT_FALSE(left_in(150.0).is_over(&into, &now)) << "that was the turn before it, or a bend of the road";
 }
 
 TEST(WishedTurn, IsOverBehindThePlace) {
   WishedTurn turn = left_in(10.0);
-  turn.drive_to({120, 0, 0});
+  turn.drive_to(test::at(120));
   EXPECT_FALSE(turn.is_over(nullptr, nullptr)) << "a navigation may be wrong by some metres";
-  turn.drive_to({126, 0, 0});
+  turn.drive_to(test::at(126));
   EXPECT_TRUE(turn.is_over(nullptr, nullptr));
   EXPECT_FALSE(WishedTurn().is_over(nullptr, nullptr)) << "nothing was wished";
 }
