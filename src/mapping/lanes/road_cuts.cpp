@@ -19,7 +19,7 @@ constexpr double kAlongside = 0.8;      // cosine between boundaries of one road
 constexpr double kBeyondEnd_m = 0.5;    // half of the usual distance between cross-sections
 constexpr double kConfirmed = 3.0;      // log odds of a boundary whose probability is not estimated
 constexpr double kSurest = 0.999;       // probability of a boundary
-constexpr std::size_t kMostBeside = 12;
+constexpr std::ptrdiff_t kMostBeside = 12;
 
 double log_odds(const Marking& marking) {
   if (marking.existence_probability < 0.0)
@@ -75,13 +75,16 @@ class MetBoundary {
   MeasuredPolyline::Cursor along_;
 };
 
-/// The boundaries beside one, of many the nearest. A cross-section of a crowd of lines need not show all.
+/// The boundaries beside one, of many the nearest, from right to left. A cross-section of a crowd of lines
+/// need not show all.
 std::vector<MetBoundary> boundaries_beside(std::size_t boundary, const boundaries::SectionGraph& road) {
-  const std::span beside(road.beside[boundary]);
+  const std::vector<boundaries::SideBySide>& all = road.beside[boundary];
+  std::vector<boundaries::SideBySide> nearest(all.begin(),
+                                              all.begin() + std::min(std::ssize(all), kMostBeside));
+  std::ranges::sort(nearest, {}, &boundaries::SideBySide::lateral_m);
   std::vector<MetBoundary> met;
-  met.reserve(std::min(beside.size(), kMostBeside));
-  for (const boundaries::SideBySide& one : beside.first(std::min(beside.size(), kMostBeside)))
-    met.emplace_back(one.other, road.boundaries[one.other]);
+  met.reserve(nearest.size());
+  for (const boundaries::SideBySide& one : nearest) met.emplace_back(one.other, road.boundaries[one.other]);
   return met;
 }
 
@@ -132,8 +135,11 @@ void RoadCuts::add(const Eigen::Vector2d& ahead, double bend, const Mark& own) {
 
 void RoadCuts::insert(const Mark& mark) {
   Row& row = rows_.back();
+  // Marks mostly come from right to left.
+  auto place = marks_.end();
   const auto first = marks_.begin() + static_cast<std::ptrdiff_t>(row.begin);
-  marks_.insert(std::ranges::upper_bound(first, marks_.end(), mark.lateral_m, {}, &Mark::lateral_m), mark);
+  while (place != first && (place - 1)->lateral_m > mark.lateral_m) --place;
+  marks_.insert(place, mark);
   ++row.count;
   if (mark.lateral_m < 0.0) ++row.cut.own;
 }
