@@ -49,8 +49,12 @@ class MeasuredPolyline {
 
   /// The points without those that were left out.
   const Polyline& points() const { return points_; }
+  /// The arc length of a point, horizontal, in metres.
+  double arc_m(std::size_t point) const { return vertices_[point].arc_m; }
+  /// The index of the first point beyond an arc length; the number of points where there is none.
+  std::size_t first_beyond(double arc_m) const;
   /// Horizontal length, in metres.
-  double length() const { return arc_.empty() ? 0.0 : arc_.back(); }
+  double length() const { return vertices_.empty() ? 0.0 : vertices_.back().arc_m; }
   /// The point at an arc length, clamped to the line.
   Point at(double arc_m) const;
   /// Horizontal unit direction of the segment that holds an arc length; zero for a single point.
@@ -73,20 +77,26 @@ class MeasuredPolyline {
  private:
   static constexpr std::size_t kUnknown = std::numeric_limits<std::size_t>::max();
   struct Nearest;
+  /// What queries look at beside the point.
+  struct Vertex {
+    double arc_m = 0.0;
+    Eigen::Vector2d in_course = Eigen::Vector2d::Zero();  ///< the point, in the frame of the course
+  };
+  Point at(double arc_m, std::size_t after) const;
   void bound_blocks();
   void consider(std::size_t segment, const Point& point, Nearest& nearest) const;
   void consider_block(std::size_t block, const Point& point, Nearest& nearest) const;
   Projection project_from(std::size_t segment, const Point& point, double within_m) const;
   void search_along_course(std::size_t segment, const Eigen::Vector2d& place, const Point& point,
                            Nearest& nearest) const;
-  void search_blocks(const Point& point, Nearest& nearest) const;
+  std::size_t nearest_block(const Eigen::Vector2d& place) const;
+  void search_blocks(std::size_t segment, const Point& point, Nearest& nearest) const;
   Eigen::Vector2d segment_direction(std::size_t end) const;
   Eigen::Vector2d in_course(const Point& point) const;
 
   Polyline points_;
-  std::vector<double> arc_;
+  std::vector<Vertex> vertices_;  ///< one for each point
   // The search for a foot is narrowed by these. Their frame is the first point and the course.
-  std::vector<Eigen::Vector2d> in_course_;             ///< the points
   Eigen::Vector2d course_ = Eigen::Vector2d::UnitX();  ///< from the first point to the last
   Eigen::AlignedBox2d bounds_;                         ///< along the course, and to the left of it
   double cosine_ = 1.0, sine_ = 0.0;         ///< of the largest angle between a segment and the course

@@ -18,30 +18,6 @@ constexpr double kMinAlongCourse = 0.2;  // cosine; a line that turns away furth
 
 double horizontal_distance(const Point& a, const Point& b) { return (b - a).head<2>().norm(); }
 
-/// The point at an arc length, clamped to the line. `after` is the first vertex beyond the arc length.
-inline Point point_at(const Polyline& points, const std::vector<double>& arc, double arc_m,
-                      std::size_t after) {
-  if (arc_m <= 0.0) return points.front();
-  if (arc_m >= arc.back()) return points.back();
-  const double share = (arc_m - arc[after - 1]) / (arc[after] - arc[after - 1]);
-  return points[after - 1] + share * (points[after] - points[after - 1]);
-}
-
-/// Points every `step_m`, or slightly less. `arc` are the arc lengths of the points.
-Polyline spaced(const Polyline& points, const std::vector<double>& arc, double step_m) {
-  const double length_m = arc.back();
-  const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(length_m / step_m)));
-  Polyline out;
-  out.reserve(steps + 1);
-  std::size_t after = 0;
-  for (std::size_t i = 0; i <= steps; ++i) {
-    const double arc_m = length_m * static_cast<double>(i) / static_cast<double>(steps);
-    while (after < arc.size() && arc[after] <= arc_m) ++after;
-    out.push_back(point_at(points, arc, arc_m, after));
-  }
-  return out;
-}
-
 /// A squared distance. A foot beyond it is further away than `distance_m`, whatever the rounding errors.
 double squared_bound_m2(double distance_m) { return (distance_m + kMargin_m) * (distance_m + kMargin_m); }
 
@@ -67,25 +43,28 @@ void drop_repeats(Polyline& line) {
   line.erase(std::unique(line.begin(), line.end(), repeats), line.end());
 }
 
-Polyline resample(const Polyline& line, double step_m) {
-  Polyline points = line;
-  drop_repeats(points);
-  return spaced(points, arc_lengths(points), step_m);
-}
+Polyline resample(const Polyline& line, double step_m) { return MeasuredPolyline(line).resample(step_m); }
 
-MeasuredPolyline::MeasuredPolyline(const Polyline& points) : points_(points) {
+MeasuredPolyline::MeasuredPolyline(const Polyline& points) {
   assert(!points.empty());
-  drop_repeats(points_);
-  arc_ = arc_lengths(points_);
+  points_.reserve(points.size());
+  vertices_.reserve(points.size());
+  points_.push_back(points.front());
+  vertices_.emplace_back();
+  for (const Point& point : points) {
+    const double step_m = horizontal_distance(points_.back(), point);
+    if (step_m <= kCoincident_m) continue;
+    vertices_.push_back({.arc_m = length() + step_m});
+    points_.push_back(point);
+  }
   const Eigen::Vector2d chord = (points_.back() - points_.front()).head<2>();
   if (chord.norm() > kCoincident_m) course_ = chord.normalized();
-  in_course_.resize(points_.size(), Eigen::Vector2d::Zero());
-  bounds_.extend(in_course_.front());
+  bounds_.extend(vertices_.front().in_course);
   for (std::size_t i = 1; i < points_.size(); ++i) {
-    in_course_[i] = in_course(points_[i]);
-    bounds_.extend(in_course_[i]);
+    vertices_[i].in_course = in_course(points_[i]);
+    bounds_.extend(vertices_[i].in_course);
     const double along_m = course_.dot((points_[i] - points_[i - 1]).head<2>());
-    const double step_m = arc_[i] - arc_[i - 1];
+    const double step_m = arc_m(i) - arc_m(i - 1);
     if (along_m < cosine_ * step_m) cosine_ = along_m / step_m;
   }
   cosine_ -= 1e-9;
@@ -102,26 +81,34 @@ void MeasuredPolyline::bound_blocks() {
 }
 
 /// The place of a point, seen from the first point: along the course, and to the left of it.
-Eigen::Vector2d MeasuredPolyline::in_course(const Point& point) const {
+inline Eigen::Vector2d MeasuredPolyline::in_course(const Point& point) const {
   const Eigen::Vector2d offset = (point - points_.front()).head<2>();
   return {course_.dot(offset), cross(course_, offset)};
 }
 
-Point MeasuredPolyline::at(double arc_m) const {
-  const auto after = std::upper_bound(arc_.begin(), arc_.end(), arc_m);
-  return point_at(points_, arc_, arc_m, static_cast<std::size_t>(after - arc_.begin()));
+/// The point at an arc length, clamped to the line. `after` is the first vertex beyond the arc length.
+inline Point MeasuredPolyline::at(double arc_m, std::size_t after) const {
+  if (arc_m <= 0.0) return points_.front();
+  if (arc_m >= length()) return points_.back();
+  const double before_m = vertices_[after - 1].arc_m;
+  const double share = (arc_m - before_m) / (vertices_[after].arc_m - before_m);
+  return points_[after - 1] + share * (points_[after] - points_[after - 1]);
 }
 
+std::size_t MeasuredPolyline::first_beyond(double arc_m) const {
+  const auto found = std::ranges::upper_bound(vertices_, arc_m, {}, &Vertex::arc_m);
+  return static_cast<std::size_t>(found - vertices_.begin());
+}
+
+Point MeasuredPolyline::at(double arc_m) const { return at(arc_m, first_beyond(arc_m)); }
+
 Eigen::Vector2d MeasuredPolyline::segment_direction(std::size_t end) const {
-  return (points_[end] - points_[end - 1]).head<2>() / (arc_[end] - arc_[end - 1]);
+  return (points_[end] - points_[end - 1]).head<2>() / (arc_m(end) - arc_m(end - 1));
 }
 
 Eigen::Vector2d MeasuredPolyline::direction(double arc_m) const {
   if (points_.size() < 2) return Eigen::Vector2d::Zero();
-  const auto after = std::upper_bound(arc_.begin(), arc_.end(), arc_m);
-  const auto i =
-      std::clamp<std::size_t>(static_cast<std::size_t>(after - arc_.begin()), 1, points_.size() - 1);
-  return segment_direction(i);
+  return segment_direction(std::clamp<std::size_t>(first_beyond(arc_m), 1, points_.size() - 1));
 }
 
 Eigen::Vector2d MeasuredPolyline::chord(double from_m, double to_m) const {
@@ -131,7 +118,7 @@ Eigen::Vector2d MeasuredPolyline::chord(double from_m, double to_m) const {
 Eigen::Vector2d MeasuredPolyline::direction(const Projection& foot) const {
   if (points_.size() < 2) return Eigen::Vector2d::Zero();
   std::size_t i = foot.segment + 1;
-  while (i + 1 < points_.size() && arc_[i] <= foot.arc_m) ++i;
+  while (i + 1 < points_.size() && arc_m(i) <= foot.arc_m) ++i;
   return segment_direction(i);
 }
 
@@ -146,7 +133,7 @@ struct MeasuredPolyline::Nearest {
 inline void MeasuredPolyline::consider(std::size_t segment, const Point& point, Nearest& nearest) const {
   const Eigen::Vector2d start = points_[segment].head<2>();
   const Eigen::Vector2d along = points_[segment + 1].head<2>() - start;
-  const double segment_m = arc_[segment + 1] - arc_[segment];
+  const double segment_m = arc_m(segment + 1) - arc_m(segment);
   const double share = (point.head<2>() - start).dot(along) / (segment_m * segment_m);
   const Eigen::Vector2d foot = start + std::clamp(share, 0.0, 1.0) * along;
   const double squared_m2 = (point.head<2>() - foot).squaredNorm();
@@ -162,9 +149,9 @@ inline void MeasuredPolyline::consider(std::size_t segment, const Point& point, 
 /// Once that cone is further away than the nearest foot, so is the rest of the line.
 inline void MeasuredPolyline::search_along_course(std::size_t segment, const Eigen::Vector2d& place,
                                                   const Point& point, Nearest& nearest) const {
-  const auto ahead_m = [&](std::size_t vertex) { return place.x() - in_course_[vertex].x(); };
+  const auto ahead_m = [&](std::size_t vertex) { return place.x() - vertices_[vertex].in_course.x(); };
   const auto is_past = [&](std::size_t vertex, double sense) {
-    const Eigen::Vector2d offset = place - in_course_[vertex];
+    const Eigen::Vector2d offset = place - vertices_[vertex].in_course;
     const double along_m = sense * offset.x(), aside_m = std::abs(offset.y());
     const double along_edge_m = along_m * cosine_ + aside_m * sine_;
     if (along_edge_m <= 0.0) return offset.squaredNorm() > nearest.bound_m2;
@@ -190,18 +177,19 @@ void MeasuredPolyline::consider_block(std::size_t block, const Point& point, Nea
   for (std::size_t i = block * kBlock; i < end; ++i) consider(i, point, nearest);
 }
 
-/// Searches the nearest block first. It mostly holds the foot, and few other blocks are as near as that foot.
-void MeasuredPolyline::search_blocks(const Point& point, Nearest& nearest) const {
+/// The block that is nearest to a place.
+std::size_t MeasuredPolyline::nearest_block(const Eigen::Vector2d& place) const {
+  const auto distance_m2 = [&](const Eigen::AlignedBox2d& block) {
+    return block.squaredExteriorDistance(place);
+  };
+  return static_cast<std::size_t>(std::ranges::min_element(blocks_, {}, distance_m2) - blocks_.begin());
+}
+
+/// Searches first the block that holds `segment`, or the nearest one. It mostly holds the foot, and few other
+/// blocks are as near as that foot.
+void MeasuredPolyline::search_blocks(std::size_t segment, const Point& point, Nearest& nearest) const {
   const Eigen::Vector2d place = point.head<2>();
-  std::size_t first = 0;
-  double least_m2 = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < blocks_.size(); ++k) {
-    const double squared_m2 = blocks_[k].squaredExteriorDistance(place);
-    if (squared_m2 >= least_m2) continue;
-    least_m2 = squared_m2;
-    first = k;
-  }
-  if (least_m2 > nearest.bound_m2) return;
+  const std::size_t first = segment == kUnknown ? nearest_block(place) : segment / kBlock;
   consider_block(first, point, nearest);
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     if (k != first && blocks_[k].squaredExteriorDistance(place) <= nearest.bound_m2)
@@ -225,16 +213,16 @@ Projection MeasuredPolyline::project_from(std::size_t segment, const Point& poin
     return result;
   }
   cosine_ > kMinAlongCourse ? search_along_course(segment, place, point, nearest)
-                            : search_blocks(point, nearest);
+                            : search_blocks(segment, point, nearest);
   if (nearest.distance_m > within_m) return result;
   const auto& [bound, distance_m, i, share] = nearest;
   const double clamped = std::clamp(share, 0.0, 1.0);
-  const double segment_m = arc_[i + 1] - arc_[i];
+  const double segment_m = arc_m(i + 1) - arc_m(i);
   const bool before_start = i == 0 && share < 0.0;
   const bool after_end = i + 2 == points_.size() && share > 1.0;
   const double side =
       cross((points_[i + 1] - points_[i]).head<2>(), (point - points_[i]).head<2>()) / segment_m;
-  return {.arc_m = arc_[i] + clamped * segment_m,
+  return {.arc_m = arc_m(i) + clamped * segment_m,
           .distance_m = distance_m,
           .lateral_m = before_start || after_end ? side : std::copysign(distance_m, side),
           .inside = !before_start && !after_end,
@@ -247,20 +235,30 @@ Polyline MeasuredPolyline::slice(const Stretch& range) const {
   out.reserve(points_.size() + 2);
   out.push_back(at(range.from_m));
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (arc_[i] > range.from_m + kCoincident_m && arc_[i] < range.to_m - kCoincident_m)
+    if (arc_m(i) > range.from_m + kCoincident_m && arc_m(i) < range.to_m - kCoincident_m)
       out.push_back(points_[i]);
   }
   out.push_back(at(range.to_m));
   return out;
 }
 
-Polyline MeasuredPolyline::resample(double step_m) const { return spaced(points_, arc_, step_m); }
+Polyline MeasuredPolyline::resample(double step_m) const {
+  const auto steps = std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(length() / step_m)));
+  Polyline out;
+  out.reserve(steps + 1);
+  std::size_t after = 0;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double arc_m = length() * static_cast<double>(i) / static_cast<double>(steps);
+    while (after < vertices_.size() && vertices_[after].arc_m <= arc_m) ++after;
+    out.push_back(at(arc_m, after));
+  }
+  return out;
+}
 
 Point MeasuredPolyline::Cursor::at(double arc_m) {
-  const std::vector<double>& arc = line_.arc_;
-  while (after_ < arc.size() && arc[after_] <= arc_m) ++after_;
-  while (after_ > 0 && arc[after_ - 1] > arc_m) --after_;
-  return point_at(line_.points_, arc, arc_m, after_);
+  while (after_ < line_.vertices_.size() && line_.arc_m(after_) <= arc_m) ++after_;
+  while (after_ > 0 && line_.arc_m(after_ - 1) > arc_m) --after_;
+  return line_.at(arc_m, after_);
 }
 
 Projection MeasuredPolyline::Cursor::project(const Point& point, double within_m) {

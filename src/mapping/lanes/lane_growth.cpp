@@ -212,8 +212,8 @@ class Growth {
     const double margin_m = 0.5 * config_.step_m;
     std::vector<LaneStation> stations;
     for (std::size_t i = 0; i < strip.stations.size(); ++i) {
-      if (before != nullptr && strip.arc_m[i] < before->range.to_m + margin_m) continue;
-      if (behind != nullptr && strip.arc_m[i] > behind->range.from_m - margin_m) continue;
+      if (before != nullptr && strip.center.arc_m(i) < before->range.to_m + margin_m) continue;
+      if (behind != nullptr && strip.center.arc_m(i) > behind->range.from_m - margin_m) continue;
       stations.push_back(strip.stations[i]);
       stations.back().log_odds = first_evidence(stations.back().status);
     }

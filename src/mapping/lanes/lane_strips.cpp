@@ -73,10 +73,12 @@ class Matching {
   }
 
   void deny(const DeniedStretch& stretch) {
+    const auto is_between = [&](const LaneStation& station) { return between(station, stretch.borders); };
+    if (std::ranges::none_of(stations_, is_between)) return;
     const MeasuredPolyline middle(stretch.middle);
     MeasuredPolyline::Cursor along(middle);
     for (std::size_t i = 0; i < stations_.size(); ++i) {
-      if (!between(stations_[i], stretch.borders)) continue;
+      if (!is_between(stations_[i])) continue;
       const Projection foot = along.project(centers_[i], kSameLane_m);
       if (foot.inside && foot.distance_m < kSameLane_m) matches_[i].is_denied = true;
     }
@@ -125,21 +127,19 @@ class Matching {
 }  // namespace
 
 Strip::Strip(const Lane& found, const std::vector<Fork>& forks)
-    : lane(found),
-      center(found.centerline),
-      arc_m(arc_lengths(center.points())),
-      box(box_around(found.centerline, found.width_m)) {
+    : lane(found), center(found.centerline), box(box_around(found.centerline, found.width_m)) {
   const MeasuredPolyline left(found.left), right(found.right);
   MeasuredPolyline::Cursor along_left(left), along_right(right);
-  stations.reserve(arc_m.size());
-  for (std::size_t i = 0; i < arc_m.size(); ++i) {
+  stations.reserve(center.points().size());
+  for (std::size_t i = 0; i < center.points().size(); ++i) {
     const Point& middle = center.points()[i];
-    stations.push_back({.border = {along_left.project(middle).foot, along_right.project(middle).foot},
-                        .boundary = {boundary(Side::left), boundary(Side::right)},
-                        .probability = found.existence_probability,
-                        .status = is_inferred_at(found, arc_m[i]) ? ElementStatus::inferred : found.status,
-                        .evidence = found.evidence,
-                        .found = true});
+    stations.push_back(
+        {.border = {along_left.project(middle).foot, along_right.project(middle).foot},
+         .boundary = {boundary(Side::left), boundary(Side::right)},
+         .probability = found.existence_probability,
+         .status = is_inferred_at(found, center.arc_m(i)) ? ElementStatus::inferred : found.status,
+         .evidence = found.evidence,
+         .found = true});
   }
   for (const End end : kEnds)
     cut[index(end)] =
@@ -147,11 +147,11 @@ Strip::Strip(const Lane& found, const std::vector<Fork>& forks)
 }
 
 LaneStation Strip::at(double at_m) const {
-  const auto next = std::ranges::upper_bound(arc_m, at_m);
-  if (next == arc_m.begin()) return stations.front();
-  if (next == arc_m.end()) return stations.back();
-  const auto i = static_cast<std::size_t>(next - arc_m.begin());
-  return between(stations[i - 1], stations[i], (at_m - arc_m[i - 1]) / (arc_m[i] - arc_m[i - 1]));
+  const std::size_t i = center.first_beyond(at_m);
+  if (i == 0) return stations.front();
+  if (i == stations.size()) return stations.back();
+  const double before_m = center.arc_m(i - 1);
+  return between(stations[i - 1], stations[i], (at_m - before_m) / (center.arc_m(i) - before_m));
 }
 
 std::vector<Match> match(const LaneTrack& track, const std::vector<Strip>& strips,

@@ -24,8 +24,7 @@ struct Strip {
 
   const Lane& lane;
   MeasuredPolyline center;
-  std::vector<double> arc_m;          ///< of each vertex of the center
-  std::vector<LaneStation> stations;  ///< one for each
+  std::vector<LaneStation> stations;  ///< one for each point of the center
   Box box;                            ///< around the strip
   std::array<bool, 2> cut{};          ///< by end
 };

@@ -34,10 +34,10 @@ class RouteBuilder {
       if (from_m >= measured.length()) return;
     }
     route_.pieces.push_back(piece);
-    const std::vector<double> arcs_m = arc_lengths(measured.points());
+    route_.points.reserve(route_.points.size() + measured.points().size() + 1);
     if (from_m > 0.0) add(measured.at(from_m), arc_m + from_m);
-    for (std::size_t i = 0; i < arcs_m.size(); ++i)
-      if (arcs_m[i] >= from_m) add(measured.points()[i], arc_m + arcs_m[i]);
+    for (std::size_t i = 0; i < measured.points().size(); ++i)
+      if (measured.arc_m(i) >= from_m) add(measured.points()[i], arc_m + measured.arc_m(i));
   }
 
  private:
