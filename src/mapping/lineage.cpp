@@ -1,7 +1,7 @@
 #include "mapping/lineage.hpp"
 
 #include <algorithm>
-#include <set>
+#include <vector>
 
 #include "laneloom/polyline.hpp"
 #include "mapping/lanes/lane_geometry.hpp"
@@ -49,9 +49,13 @@ ElementId lane_beside(const Lane& lane, const std::vector<Lane>& lanes) {
   return nearest;
 }
 
-std::set<ElementId> elements(const Membership& membership) {
-  std::set<ElementId> ids;
-  for (const auto& [marking, element] : membership) ids.insert(element);
+/// The ids of the elements, each once, in ascending order.
+std::vector<ElementId> elements(const Membership& membership) {
+  std::vector<ElementId> ids;
+  ids.reserve(membership.size());
+  for (const auto& [marking, element] : membership) ids.push_back(element);
+  std::ranges::sort(ids);
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
 }
 
@@ -70,17 +74,17 @@ Membership membership(const boundaries::Boundaries& boundaries, const std::vecto
 std::vector<LineageEvent> lineage(const Membership& before, const Membership& now,
                                   const std::vector<markings::Relative>& relatives) {
   using Kind = LineageEvent::Kind;
-  const std::set<ElementId> ids_before = elements(before), ids_now = elements(now);
+  const std::vector<ElementId> ids_before = elements(before), ids_now = elements(now);
   std::vector<LineageEvent> events;
   // An element has the id of its oldest marking, and shares that marking's fate.
   for (const ElementId id : ids_now) {
-    if (ids_before.contains(id)) continue;
+    if (std::ranges::binary_search(ids_before, id)) continue;
     const ElementId former = element_of(before, id, relatives);
     events.push_back(
         {.kind = former == kNoElement ? Kind::born : Kind::split_from, .id = id, .other = former});
   }
   for (const ElementId id : ids_before) {
-    if (ids_now.contains(id)) continue;
+    if (std::ranges::binary_search(ids_now, id)) continue;
     const ElementId heir = element_of(now, id, relatives);
     events.push_back(
         {.kind = heir == kNoElement ? Kind::retired : Kind::merged_into, .id = id, .other = heir});

@@ -69,6 +69,7 @@ std::vector<std::vector<SideBySide>> side_by_side(const Boundaries& boundaries, 
   samples.reserve(boundaries.size());
   for (const LaneBoundary& boundary : boundaries) samples.push_back(sample(boundary.course));
   std::vector<std::vector<SideBySide>> pairs(boundaries.size());
+  for (std::vector<SideBySide>& beside_one : pairs) beside_one.reserve(boundaries.size() - 1);
   for (std::size_t i = 0; i < boundaries.size(); ++i) {
     for (std::size_t j = i + 1; j < boundaries.size(); ++j) {
       const bool i_is_longer = samples[i].length_m >= samples[j].length_m;

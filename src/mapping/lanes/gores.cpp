@@ -40,12 +40,9 @@ std::size_t from_meeting(Iterator begin, Iterator end) {
 
 }  // namespace
 
-std::vector<bool> in_gore(std::span<const PlaceBetween> places) {
-  const std::size_t opening = from_meeting(places.begin(), places.end()),
-                    closing = from_meeting(places.rbegin(), places.rend());
-  std::vector<bool> found(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) found[i] = i < opening || places.size() - i <= closing;
-  return found;
+GorePlaces in_gore(std::span<const PlaceBetween> places) {
+  return {.up_to = from_meeting(places.begin(), places.end()),
+          .from = places.size() - from_meeting(places.rbegin(), places.rend())};
 }
 
 }  // namespace laneloom::lanes

@@ -1,7 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <span>
-#include <vector>
 
 /// Areas between two lines that part or join, where nobody drives. Ours.
 namespace laneloom::lanes {
@@ -13,8 +14,16 @@ struct PlaceBetween {
   bool may_be_crossed = false;  ///< one of the borders is a line that is not solid
 };
 
-/// Whether each of consecutive places lies in a gore: the borders meet at an end of the places, or would not
-/// far beyond it, and neither border may be crossed from there to the place.
-std::vector<bool> in_gore(std::span<const PlaceBetween> places);
+/// Which of consecutive places lie in a gore.
+struct GorePlaces {
+  std::size_t up_to = 0;                                       ///< the places before this one do
+  std::size_t from = std::numeric_limits<std::size_t>::max();  ///< and so do those from this one on
+
+  bool contains(std::size_t place) const { return place < up_to || place >= from; }
+};
+
+/// Finds the places that lie in a gore: the borders meet at an end of the places, or would not far beyond it,
+/// and neither border may be crossed from there to the place.
+GorePlaces in_gore(std::span<const PlaceBetween> places);
 
 }  // namespace laneloom::lanes

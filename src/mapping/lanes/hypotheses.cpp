@@ -158,13 +158,12 @@ double taper_at(std::span<const Place> places, std::size_t i, double step_m) {
   return std::abs(places[to].width_m - places[from].width_m) / (step_m * static_cast<double>(to - from));
 }
 
-/// Whether each place lies in a gore.
-std::vector<bool> gore_places(std::span<const Place> places) {
+/// The places that lie in a gore. `between` is scratch.
+GorePlaces gore_places(std::span<const Place> places, std::vector<PlaceBetween>& between) {
   const auto may_be_crossed = [](const Mark* mark) {
     return mark != nullptr && !mark->is_edge && mark->dashed >= 0.0;
   };
-  std::vector<PlaceBetween> between;
-  between.reserve(places.size());
+  between.clear();
   for (const Place& place : places)
     between.push_back({.along_m = place.cut.self().arc_m,
                        .width_m = place.width_m,
@@ -174,8 +173,7 @@ std::vector<bool> gore_places(std::span<const Place> places) {
 
 /// How near along the cut boundary a line parts it from another boundary: from 1 to 0 per cross-section. A
 /// line does so that rather is there than not.
-std::vector<double> parted_from(std::size_t other, const RoadCuts& cuts, double step_m) {
-  std::vector<double> parted(cuts.size(), 0.0);
+void find_parted(std::size_t other, const RoadCuts& cuts, double step_m, std::vector<double>& parted) {
   for (std::size_t c = 0; c < cuts.size(); ++c) {
     const RoadCut cut = cuts[c];
     const std::span<const Mark> marks = cut.marks;
@@ -192,7 +190,6 @@ std::vector<double> parted_from(std::size_t other, const RoadCuts& cuts, double 
   const double fading = step_m / kUnseen_m;
   for (std::size_t c = 1; c < parted.size(); ++c) parted[c] = std::max(parted[c], parted[c - 1] - fading);
   for (std::size_t c = parted.size() - 1; c-- > 0;) parted[c] = std::max(parted[c], parted[c + 1] - fading);
-  return parted;
 }
 
 /// Whether a mark is of the cut edge itself, where it has turned back, as at the end of a street.
@@ -237,16 +234,18 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
   for (const Eigen::Isometry3d& pose : driven) vehicles.emplace_back(base, found.front().reversed, pose);
   std::vector<Place> places;
   places.reserve(cuts.size());
+  std::vector<PlaceBetween> between;
+  between.reserve(cuts.size());
+  std::vector<double> parted;
   for (Hypothesis& one : found) {
     list_places(one, cuts, places);
     const bool is_driven = std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
       return drives_in(vehicle, one, places, road, config);
     });
     // Two lanes fit into no gore.
-    const std::vector<bool> gore =
-        one.room == Room::divided ? std::vector<bool>(places.size()) : gore_places(places);
-    const std::vector<double> parted =
-        one.room == Room::between ? parted_from(one.other, cuts, step_m) : std::vector<double>(cuts.size());
+    const GorePlaces gore = one.room == Room::divided ? GorePlaces() : gore_places(places, between);
+    parted.assign(cuts.size(), 0.0);
+    if (one.room == Room::between) find_parted(one.other, cuts, step_m, parted);
     one.log_odds.reserve(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
       auto& [cut, candidate, width, opposite] = places[i];
@@ -255,7 +254,7 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
       candidate.here = is_driven && std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
                          return vehicle.is_near(at);
                        });
-      candidate.gore = gore[i];
+      candidate.gore = gore.contains(i);
       candidate.parted = parted[one.first + i];
       candidate.taper = is_open(one.room) ? 0.0 : taper_at(places, i, step_m);
       const bool outer = !is_open(one.room) && is_parted(cut, candidate.left, 0.0);

@@ -190,7 +190,9 @@ std::vector<LineMatch> LineMatcher::match(const std::vector<SampledDetection>& d
 
   Claims claims(detections, lines_);
   std::vector<LineMatch> matches;
+  matches.reserve(candidates.all.size());
   LineMatch match;
+  match.samples.reserve(samples);
   for (const Candidate& candidate : candidates.all) {
     match.detection = candidate.detection;
     match.line = candidate.line;

@@ -60,6 +60,7 @@ void count_joints(const std::vector<LineMatch>& matches, const std::vector<Line>
   const std::vector<Views> views = views_of_ends(matches, lines);
   const std::vector<LineEnd> ends = ends_of(lines, views);
   std::vector<markings::PairSighting> near;
+  near.reserve(ends.size());
   for (auto a = ends.begin(); a != ends.end(); ++a) {
     for (auto b = a + 1; b != ends.end(); ++b) {
       if (a->line == b->line || (a->place - b->place).squaredNorm() > max_gap_m * max_gap_m) continue;

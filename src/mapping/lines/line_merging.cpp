@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "mapping/geometry/levels.hpp"
@@ -20,19 +21,28 @@ constexpr double kPaint_m = 0.15;   // two lanelines nearer to each other have n
 using IndexPair = std::pair<std::size_t, std::size_t>;
 
 /// The positions of the lines' stations.
-std::vector<Polyline> courses_of(const std::vector<Line>& lines) {
-  std::vector<Polyline> courses;
-  courses.reserve(lines.size());
-  for (const Line& line : lines) {
-    Polyline& course = courses.emplace_back();
-    course.reserve(line.stations.size());
-    for (const Station& station : line.stations) course.push_back(station.position);
+class Courses {
+ public:
+  explicit Courses(const std::vector<Line>& lines) {
+    begins_.reserve(lines.size() + 1);
+    begins_.push_back(0);
+    for (const Line& line : lines) begins_.push_back(begins_.back() + line.stations.size());
+    all_.reserve(begins_.back());
+    for (const Line& line : lines)
+      for (const Station& station : line.stations) all_.push_back(station.position);
   }
-  return courses;
-}
+  std::size_t size(std::size_t line) const { return begins_[line + 1] - begins_[line]; }
+  std::span<const Point> operator[](std::size_t line) const {
+    return std::span(all_).subspan(begins_[line], size(line));
+  }
+
+ private:
+  Polyline all_;                       ///< of all lines, one after the other
+  std::vector<std::size_t> begins_{};  ///< per line, its first one; at last, their number
+};
 
 /// Whether a line passes within `distance_m` of a point, at a station or on the two segments at it.
-bool passes(const Polyline& course, std::size_t station, const Point& point, double distance_m) {
+bool passes(std::span<const Point> course, std::size_t station, const Point& point, double distance_m) {
   const auto is_near = [&](const Point& place) {
     return (place - point).head<2>().squaredNorm() < distance_m * distance_m &&
            geometry::same_level(place, point);
@@ -53,10 +63,7 @@ class BesideSearch {
  public:
   /// `grid` must outlive this.
   BesideSearch(const std::vector<Line>& lines, const StationGrid& grid, const FusionConfig& config)
-      : grid_(grid),
-        courses_(courses_of(lines)),
-        others_(lines.size()),
-        spacing_m_(config.station_spacing_m) {
+      : grid_(grid), courses_(lines), others_(lines.size()), spacing_m_(config.station_spacing_m) {
     types_.reserve(lines.size());
     for (const Line& line : lines) types_.push_back(line.type());
   }
@@ -69,10 +76,10 @@ class BesideSearch {
     // A line that passes this near has a station within reach, unless its stations are more than twice as far
     // apart as wanted.
     const double reach_m = std::sqrt(distance_m * distance_m + spacing_m_ * spacing_m_);
-    const Polyline& course = courses_[line];
+    const std::span<const Point> course = courses_[line];
     const auto needed = static_cast<std::size_t>(std::ceil(share * static_cast<double>(course.size())));
     for (std::size_t j = 0; j < others_.size(); ++j) {
-      const bool is_longer = std::pair(courses_[j].size(), line) > std::pair(course.size(), j);
+      const bool is_longer = std::pair(courses_.size(j), line) > std::pair(course.size(), j);
       const bool is_alike = is_stopline(types_[j]) == is_stopline(types_[line]);
       others_[j] = {.needed = needed, .next = is_longer && is_alike ? 0 : kNever};
     }
@@ -104,7 +111,7 @@ class BesideSearch {
 
   const StationGrid& grid_;
   std::vector<MarkingType> types_;
-  std::vector<Polyline> courses_;
+  Courses courses_;
   std::vector<Other> others_;
   double spacing_m_;
 };

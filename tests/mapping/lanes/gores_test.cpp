@@ -16,7 +16,10 @@ std::vector<PlaceBetween> places(double begin_m, double end_m) {
 }
 
 std::ptrdiff_t gore_m(const std::vector<PlaceBetween>& places) {
-  return std::ranges::count(in_gore(places), true);
+  const GorePlaces gore = in_gore(places);
+  std::ptrdiff_t count = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) count += gore.contains(i) ? 1 : 0;
+  return count;
 }
 
 TEST(Gores, LieBetweenBordersThatMeet) {
