@@ -142,6 +142,13 @@ void discount_unobserved(const View& view, const geometry::MapBox& range, const 
 
 namespace {
 
+/// Drops the dead stations at both ends.
+template <class IsDead>
+void trim(std::vector<Station>& stations, const IsDead& dead) {
+  stations.erase(std::find_if_not(stations.rbegin(), stations.rend(), dead).base(), stations.end());
+  stations.erase(stations.begin(), std::ranges::find_if_not(stations, dead));
+}
+
 /// The pieces of a line that are left without its dead stations, in order.
 template <class IsDead>
 std::vector<Line> living_pieces(Line& line, const IsDead& dead) {
@@ -169,6 +176,7 @@ std::vector<markings::Relative> prune_lines(const geometry::MapBox& range, const
   };
   kept.reserve(lines.size());
   for (Line& line : lines) {
+    trim(line.stations, dead);  // most lines lose no more than an end
     if (line.stations.size() >= 2 && std::ranges::none_of(line.stations, dead)) {
       kept.push_back(std::move(line));
       continue;
