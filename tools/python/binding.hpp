@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "laneloom/next_turn.hpp"
 #include "laneloom/objects.hpp"
 #include "laneloom/types.hpp"
 
