@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +52,18 @@ class SdMap {
   /// street. `direction` has unit length. Map frame.
   int one_way_at(const Eigen::Vector2d& place, const Eigen::Vector2d& direction) const;
 
+  /// A place in the middle of a street, and the direction in which traffic drives on from there.
+  struct Place {
+    Eigen::Vector2d point, direction;
+  };
+  /// The place beside `place` on the nearest street that traffic may drive along `direction`, by 37 degrees.
+  /// Empty: none is at most 15 m away. `direction` has unit length. Map frame.
+  std::optional<Place> beside(const Eigen::Vector2d& place, const Eigen::Vector2d& direction) const;
+  /// The line of that street from this place on, over `length_m`. It ends earlier where the street ends, and
+  /// at a junction from which no street, or more than one, leads on within 45 degrees. Empty: there is no
+  /// street. Heights are 0.
+  Polyline onward(const Eigen::Vector2d& place, const Eigen::Vector2d& direction, double length_m) const;
+
  private:
   /// A piece of a way from one node to the next, in a direction in which it may be driven.
   struct Segment {
@@ -63,6 +76,7 @@ class SdMap {
   void enter_into_cells(std::size_t index);
   const Segment* nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& direction) const;
   bool may_follow(const Segment& segment, const Segment& next) const;
+  const Segment* straight_on(const Segment& segment) const;
 
   std::vector<SdWay> ways_;
   std::map<std::pair<std::int64_t, std::int64_t>, std::vector<SdRestriction>> restrictions_;  ///< way, node

@@ -22,10 +22,10 @@ struct WayOptions {
 /// The way ahead of the vehicle. `before` is the way before, or null. The way keeps to the lanes of the way
 /// before where lanes fork or overlap, as long as the map has them and they fit the wish as well as others
 /// do; a change of lanes goes on while the wish stays. Where the lanes end, the way goes on along a driven
-/// path that runs on as the wish says. A vehicle that is neither in a lane nor on a passage goes on along the
-/// way before; off that way, it goes into a lane that begins straight ahead, at most 20 m away. A way ends
-/// before a corner of a radius below 2.5 m, because such a corner is an error of the map. Empty: none of
-/// these leads on.
+/// path that runs on as the wish says, or straight on where the map's own way goes along a street of the SD
+/// map. A vehicle that is neither in a lane nor on a passage goes on along the way before; off that way, it
+/// goes into a lane that begins straight ahead, at most 20 m away. A way ends before a corner of a radius
+/// below 2.5 m, because such a corner is an error of the map. Empty: none of these leads on.
 std::optional<Way> way_ahead(const LaneGraph& graph, const Eigen::Isometry3d& T_map_body, WayWish wish,
                              const Way* before = nullptr, const WayOptions& options = {});
 

@@ -33,7 +33,8 @@ struct WayStation {
   double right_m = kNotKnown_m;  ///< to the lane's right border; likewise
   double width_m = kNotKnown_m;  ///< of the lane; not known unless both borders are
   /// Lateral standard deviation of the middle of the lane, by those of its boundaries, or of a driven path.
-  /// Not known where a boundary has none, and on other passages.
+  /// Along a street of the SD map it grows from station to station. Not known where a boundary has none, and
+  /// on other passages.
   double lateral_stddev_m = kNotKnown_m;
   /// Inferred within the lane's inferred ranges, and on a passage with a path: nobody saw a lane there.
   ElementStatus status = ElementStatus::confirmed;

@@ -28,6 +28,7 @@
 #include "mapping/topology/meeting.hpp"
 #include "mapping/topology/side_by_side.hpp"
 #include "mapping/topology/stoplines.hpp"
+#include "mapping/topology/street_ahead.hpp"
 #include "mapping/topology/traffic.hpp"
 
 namespace laneloom {
@@ -132,19 +133,24 @@ LocalMap assembled(const geometry::Scene& scene, markings::FusedMarkings fused, 
   return map;
 }
 
-/// Makes the own way anew, the way before continued.
-void lead_on(const markings::StageLog& log, const std::optional<Way>& former, lanes::WishedTurn& turn,
-             LocalMap& map) {
+/// Makes the own way anew, the way before continued. Where it ends, it goes on as the street of the SD map
+/// does, and into the lanes behind. `map` has no way yet.
+void lead_on(const SdMap& sd_map, const std::optional<Way>& former, const markings::StageLog& log,
+             MapperState& state, LocalMap& map) {
   const Way* const before = former ? &*former : nullptr;
-  turn.drive_to(map.T_map_body);
-  std::optional<Way> way =
-      way_ahead(LaneGraph(map), map.T_map_body, turn.wish(), before, {.turn_m = turn.range()});
-  if (turn.is_over(before, way ? &*way : nullptr)) turn = {};
-  map.way = log.done(Stage::way, std::move(way));
+  state.turn.drive_to(map.T_map_body);
+  const auto make = [&] {
+    return way_ahead(LaneGraph(map), map.T_map_body, state.turn.wish(), before,
+                     {.turn_m = state.turn.range()});
+  };
+  map.way = make();
+  if (map.way && topology::go_on_along_street(sd_map, state.driven, *map.way)) map.way = make();
+  if (state.turn.is_over(before, map.way ? &*map.way : nullptr)) state.turn = {};
+  log.done(Stage::way);
 }
 
 /// Takes no more than the pose of a frame that tells next to nothing new.
-void see_again(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
+void see_again(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body, const SdMap& sd_map,
                const markings::StageLog& log, MapperState& state) {
   if (FrameReasons* const reasons = log.reasons())
     *reasons = {.stamp_ns = frame.stamp_ns,
@@ -157,7 +163,7 @@ void see_again(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
     map.T_map_body = T_map_body;
   }
   state.trails.keep_around(map.T_map_body.translation());
-  lead_on(log, map.way, state.turn, map);
+  lead_on(sd_map, std::exchange(map.way, std::nullopt), log, state, map);
 }
 
 }  // namespace
@@ -190,7 +196,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   detections_zigzagging_ = frame.detections.size() - observed.markings.size();
   detections_unsure_ = lines_forgotten_ = 0;
   if (!state.trails.take_growth() && !poses_jumped_ && state.fusion.has_seen(frame, seen_from)) {
-    see_again(frame, seen_from, log, state);
+    see_again(frame, seen_from, sd_map_, log, state);
     return state.map;
   }
   const geometry::Scene scene = next_scene(frame, seen_from, config_.range, state);
@@ -216,7 +222,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   LocalMap map =
       log.done(Stage::linkages, assembled(scene, std::move(fused), std::move(road), config_.stopline, state));
   map.driven_paths = std::move(paths);
-  lead_on(log, state.map.way, state.turn, map);
+  lead_on(sd_map_, state.map.way, log, state, map);
   state.map = std::move(map);
   return state.map;
 }

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <optional>
+#include <utility>
 
 #include "io/json_lines.hpp"
 #include "laneloom/dds/cdr.hpp"
@@ -135,6 +137,59 @@ TEST(Replay, ObjectsOfLinesTellDirections) {
   };
   EXPECT_TRUE(overlap(evidence_of(drive_behind_a_car()), Evidence::traffic));
   EXPECT_FALSE(overlap(evidence_of(drive()), Evidence::traffic));
+}
+
+/// A drive of two seconds to the east, up to x = 20 m. Behind x = 30 m the lines of the road are not seen.
+std::vector<io::FrameRecord> drive_towards_unseen_road() {
+  std::vector<io::FrameRecord> records;
+  for (std::int64_t stamp_ms = 100; stamp_ms <= 2000; stamp_ms += 100) {
+    records.push_back({frame_at(stamp_ms), pose_at(stamp_ms)});
+    for (Detection& line : records.back().frame.detections)
+      line.points.back().x() = 30.0 - records.back().pose.position.x();
+  }
+  return records;
+}
+
+/// An extract of one street to the east that bends to the north, 3 m beside its place. A degree is 111 km.
+void write_streets(const std::string& path) {
+  std::ofstream out(path);
+  out << "<osm>";
+  int node = 0;
+  for (const auto& [x, y] : {std::pair(-60.0, -3.0),
+                             {32.0, -3.0},
+                             {42.0, -1.0},
+                             {52.0, 5.0},
+                             {60.0, 15.0},
+                             {65.0, 30.0},
+                             {65.0, 60.0}})
+    out << "<node id='" << ++node << "' lat='" << y / 110574.0 << "' lon='" << x / 111320.0 << "'/>";
+  out << "<way id='1'><tag k='highway' v='residential'/>";
+  for (int i = 1; i <= node; ++i) out << "<nd ref='" << i << "'/>";
+  out << "</way></osm>";
+}
+
+TEST(Replay, WhereNothingIsSeenTheWayBendsAsTheStreetOfAnExtractDoes) {
+  const TemporaryFolder folder;
+  const auto way_with = [](const std::string& extract) {
+    Config config;
+    config.sd_map.file = extract;
+    std::optional<Way> way;
+    Replay replay(config, [&](const PublishedMap& map, std::int64_t /*log_time*/) { way = map.map.way; });
+    for (const io::FrameRecord& record : drive_towards_unseen_road()) {
+      const std::int64_t stamp_ms = record.frame.stamp_ns / kMs;
+      replay.add(message(record.pose, stamp_ms));
+      replay.add(message(record.frame, stamp_ms));
+    }
+    return way.value_or(Way{});
+  };
+  write_streets(folder.file("streets.osm"));
+  const Way seen = way_with(""), way = way_with(folder.file("streets.osm"));
+  ASSERT_TRUE(seen.is_line() && way.is_line());
+  EXPECT_NEAR(seen.stations.back().point.x(), 30.0, 3.0) << "the end of what is seen";
+  EXPECT_GT(way.known_m, seen.known_m + 10.0);
+  EXPECT_GT(way.stations.back().point.y(), 2.0) << "to the left, as the street bends";
+  EXPECT_EQ(way.stations.back().status, ElementStatus::inferred);
+  EXPECT_GT(way.stations.back().lateral_stddev_m, way.stations[way.stations.size() - 2].lateral_stddev_m);
 }
 
 TEST(Replay, LinesThatAreNoFramesAreLeftOutUnlessThatIsStrict) {

@@ -63,7 +63,7 @@ bool is_oncoming(const LaneGraph& graph, const Way& way) {
 /// A way against the traffic is taken if there is no other, and the track itself is but a guess.
 std::optional<Entry> find_entry(const LaneGraph& graph, const Plan& earlier, const MeasuredPolyline& track,
                                 double vehicle_m, WayWish wish) {
-  std::optional<Entry> oncoming;
+  std::optional<Entry> oncoming, street;
   for (double ahead_m = 0.0; ahead_m < kHorizon_m; ahead_m += 1.0) {
     const Eigen::Vector2d along = track.direction(vehicle_m + ahead_m);
     Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
@@ -71,11 +71,14 @@ std::optional<Entry> find_entry(const LaneGraph& graph, const Plan& earlier, con
     place.rotate(Eigen::AngleAxisd(std::atan2(along.y(), along.x()), Eigen::Vector3d::UnitZ()));
     auto way = way_ahead(graph, place, wish, earlier.way ? &*earlier.way : nullptr,
                          {.reach_m = kHorizon_m, .step_m = kStep_m});
-    // A way without lanes is what is left of the way before.
+    // A way without lanes is what is left of the way before, or the street's.
+    if (ahead_m == 0.0 && way && way->lanes.empty() && way->stations.front().lateral_stddev_m >= 0.0)
+      street = Entry{*way, ahead_m};
     if (!way || way->lanes.empty() || (ahead_m > 0.0 && way->stations.front().lane == kNoElement)) continue;
     if (!is_oncoming(graph, *way)) return Entry{std::move(*way), ahead_m};
     if (!oncoming) oncoming = Entry{std::move(*way), ahead_m};
   }
+  if (street) return street;
   return earlier.support_at(track.at(vehicle_m)) == Support::guessed ? oncoming : std::nullopt;
 }
 

@@ -106,11 +106,20 @@ void add_stations(const LaneGraph& graph, const lanes::Course& course, const lan
         WayStation{.point = point,
                    .heading_rad = geometry::reproducible::atan2(direction.y(), direction.x()),
                    .curvature_per_m = curvature_per_m,
-                   .lateral_stddev_m = here.lateral_stddev_m,
+                   .lateral_stddev_m = here.lateral_stddev_m + here.stddev_per_m * place.arc_m,
                    .status = ElementStatus::inferred});
     if (measures) measures->fill(place.arc_m, direction, station);
     lanes.add(here, s_m);
   }
+}
+
+/// A station whose lane the map has lost. What a station knew without a lane still holds.
+WayStation without_lane(const WayStation& station) {
+  return {.point = station.point,
+          .heading_rad = station.heading_rad,
+          .curvature_per_m = station.curvature_per_m,
+          .lateral_stddev_m = station.lane == kNoElement ? station.lateral_stddev_m : kNotKnown_m,
+          .status = ElementStatus::inferred};
 }
 
 /// The rest of the way before, ahead of the vehicle, as a way without lanes: the map has lost them. Empty:
@@ -127,10 +136,7 @@ std::optional<Way> rest_of(const Way& before, WayWish wish, const Eigen::Isometr
     return std::nullopt;
   Way way{.wish = wish, .step_m = before.step_m, .known_m = rest_m};
   for (std::size_t i = first; i < before.stations.size(); ++i)
-    way.stations.push_back({.point = before.stations[i].point,
-                            .heading_rad = before.stations[i].heading_rad,
-                            .curvature_per_m = before.stations[i].curvature_per_m,
-                            .status = ElementStatus::inferred});
+    way.stations.push_back(without_lane(before.stations[i]));
   return way;
 }
 

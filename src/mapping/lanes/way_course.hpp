@@ -23,8 +23,8 @@ std::optional<Course> course_of(const LaneGraph& graph, const Eigen::Isometry3d&
 Course course_into(const LaneGraph& graph, const DirectedLane& lane, const Eigen::Isometry3d& T_map_body,
                    const RouteWish& wish, double reach_m);
 
-/// The course along the rest of a way that leads through no lane, and on where others drove. Empty: nobody
-/// drove on.
+/// The course along the rest of a way that leads through no lane, and on where others drove, or as the street
+/// does. Empty: neither leads on.
 std::optional<Course> course_beyond(const LaneGraph& graph, const Way& rest, double reach_m);
 
 }  // namespace laneloom::lanes

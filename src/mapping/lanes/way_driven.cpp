@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "mapping/geometry/levels.hpp"
 #include "mapping/lanes/lane_ahead.hpp"
@@ -47,20 +49,22 @@ bool begins_straight(const Polyline& path, const Point& from, const Eigen::Vecto
 struct Onward {
   Polyline path;
   double aside_m = 0.0;  ///< of the path, from the place
-  double lateral_stddev_m = 0.0;
+  double arc_m = 0.0;    ///< of its begin on the whole path
 };
 
-/// `ahead` is the direction at the place `end`. Empty: the path does not pass there.
-std::optional<Onward> onward(const DrivenPath& driven, const Point& end, const Eigen::Vector2d& ahead) {
-  const MeasuredPolyline line(driven.points);
+/// `ahead` is the direction at the place `end`. Empty: the path does not pass there, within an angle of the
+/// cosine `min_along`.
+std::optional<Onward> onward(const Polyline& path, const Point& end, const Eigen::Vector2d& ahead,
+                             double min_along) {
+  const MeasuredPolyline line(path);
   const Projection foot = line.project(end);
   const Eigen::Vector2d gap = (foot.foot - end).head<2>();
   const double aside_m = std::abs(cross(ahead, gap)), ahead_m = ahead.dot(gap);
   const bool begins_ahead = foot.arc_m == 0.0 && ahead_m > 0.0 && ahead_m < kMaxAhead_m;
   if (aside_m > kMaxAside_m || !(foot.inside || begins_ahead) || !geometry::same_level(foot.foot, end) ||
-      line.direction(foot).dot(ahead) < kMinAlong || line.length() - foot.arc_m < kLeastOn_m)
+      line.direction(foot).dot(ahead) < min_along || line.length() - foot.arc_m < kLeastOn_m)
     return std::nullopt;
-  return Onward{line.slice({foot.arc_m, line.length()}), aside_m, driven.lateral_stddev_m};
+  return Onward{line.slice({foot.arc_m, line.length()}), aside_m, foot.arc_m};
 }
 
 /// The first lane that begins on a path.
@@ -85,22 +89,58 @@ Entered first_entered(const LaneGraph& graph, const MeasuredPolyline& path) {
   return first;
 }
 
+/// Whether a way goes on as a street does between two stations: there its deviation grows, without a lane.
+bool is_along_street(const WayStation& from, const WayStation& to) {
+  return from.lane == kNoElement && to.lane == kNoElement && from.lateral_stddev_m >= 0.0 &&
+         from.lateral_stddev_m < to.lateral_stddev_m;
+}
+
+/// The passage along a path, into the first lane that begins on it.
+PathAhead passage_along(const LaneGraph& graph, Polyline path) {
+  const MeasuredPolyline line(path);
+  const Entered entered = first_entered(graph, line);
+  if (entered.lane.lane == nullptr) return {.path = std::move(path)};
+  return {.path = line.slice({0.0, entered.arc_m}), .to = entered.lane};
+}
+
 }  // namespace
 
-DrivenPassage driven_on(const LaneGraph& graph, const Point& end, const Eigen::Vector2d& ahead, Turn turn) {
+PathAhead driven_on(const LaneGraph& graph, const Point& end, const Eigen::Vector2d& ahead, Turn turn) {
   std::optional<Onward> nearest;
+  double lateral_stddev_m = 0.0;
   for (const DrivenPath& driven : graph.map().driven_paths) {
-    auto found = onward(driven, end, ahead);
+    auto found = onward(driven.points, end, ahead, kMinAlong);
     if (!found || turn_along(found->path, ahead) != turn) continue;
     if (turn == Turn::straight && !begins_straight(found->path, end, ahead)) continue;
-    if (!nearest || found->aside_m < nearest->aside_m) nearest = std::move(found);
+    if (nearest && found->aside_m >= nearest->aside_m) continue;
+    nearest = std::move(found);
+    lateral_stddev_m = driven.lateral_stddev_m;
   }
   if (!nearest) return {};
-  const MeasuredPolyline path(nearest->path);
-  const Entered entered = first_entered(graph, path);
-  const double lateral_stddev_m = nearest->lateral_stddev_m;
-  if (entered.lane.lane == nullptr) return {std::move(nearest->path), lateral_stddev_m, {}};
-  return {path.slice({0.0, entered.arc_m}), lateral_stddev_m, entered.lane};
+  PathAhead passage = passage_along(graph, std::move(nearest->path));
+  passage.lateral_stddev_m = lateral_stddev_m;
+  passage.turn = turn;
+  return passage;
+}
+
+PathAhead street_on(const LaneGraph& graph, const Point& end, const Eigen::Vector2d& ahead) {
+  if (!graph.map().way) return {};
+  const Way& way = *graph.map().way;
+  const auto street = std::ranges::adjacent_find(way.stations, is_along_street);
+  if (street == way.stations.end()) return {};
+  // From the station before on, which is the end of what is known.
+  const auto first = street == way.stations.begin() ? street : std::prev(street);
+  Polyline line;
+  std::transform(first, way.stations.end(), std::back_inserter(line),
+                 [](const WayStation& station) { return station.point; });
+  auto found = onward(line, end, ahead, kStraight);
+  if (!found) return {};
+  const double per_m = (std::next(street)->lateral_stddev_m - street->lateral_stddev_m) / way.step_m;
+  const double before_m = way.step_m * static_cast<double>(street - first);
+  PathAhead passage = passage_along(graph, std::move(found->path));
+  passage.lateral_stddev_m = std::max(0.0, street->lateral_stddev_m + per_m * (found->arc_m - before_m));
+  passage.stddev_per_m = per_m;
+  return passage;
 }
 
 }  // namespace laneloom::lanes

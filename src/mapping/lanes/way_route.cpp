@@ -95,22 +95,33 @@ void append(RouteBuilder& builder, const Passage& passage) {
   builder.append(passage.to.centerline(), {passage.to, passage.turn});
 }
 
-/// Goes on where others drove, if the route ends before it reaches `to_m`, and through the lanes behind.
-/// Returns false where nobody did.
-bool append_driven(const LaneGraph& graph, const Way* before, Turn turn, double to_m, RouteBuilder& builder) {
+/// Appends a path without a lane, and what follows the lane that it leads into, to `to_m` of the route.
+void append(const LaneGraph& graph, const PathAhead& ahead, const Way* before, double to_m,
+            RouteBuilder& builder) {
+  builder.append(ahead.path, {.lane = {},
+                              .entry = ahead.turn,
+                              .lateral_stddev_m = ahead.lateral_stddev_m,
+                              .stddev_per_m = ahead.stddev_per_m});
+  if (ahead.to.lane == nullptr) return;
+  append(builder, {.to = ahead.to, .path = {}, .turn = ahead.turn});
+  const double left_m = to_m - builder.route().points.back().along_m + length(ahead.to.lane->centerline);
+  for (const Passage& passage : passages_ahead(graph, {.lane = ahead.to}, {.before = before}, left_m).all)
+    append(builder, passage);
+}
+
+/// Goes on where others drove, or as the street does, if the route ends before it reaches `to_m`. Returns
+/// false where neither leads on.
+bool append_path(const LaneGraph& graph, const Way* before, Turn turn, double to_m, RouteBuilder& builder) {
   const Route& route = builder.route();
   if (route.points.size() < 2 || route.points.back().along_m >= to_m) return false;
   Polyline line;
   line.reserve(route.points.size());
   for (const RoutePoint& point : route.points) line.push_back(point.point);
-  DrivenPassage driven = driven_on(graph, line.back(), end_direction(line, End::back), turn);
-  if (driven.path.size() < 2) return false;
-  builder.append(driven.path, {.lane = {}, .entry = turn, .lateral_stddev_m = driven.lateral_stddev_m});
-  if (driven.to.lane == nullptr) return true;
-  append(builder, {.to = driven.to, .path = {}, .turn = turn});
-  const double left_m = to_m - route.points.back().along_m + length(driven.to.lane->centerline);
-  for (const Passage& passage : passages_ahead(graph, {.lane = driven.to}, {.before = before}, left_m).all)
-    append(builder, passage);
+  const Eigen::Vector2d direction = end_direction(line, End::back);
+  PathAhead ahead = driven_on(graph, line.back(), direction, turn);
+  if (ahead.path.size() < 2 && turn == Turn::straight) ahead = street_on(graph, line.back(), direction);
+  if (ahead.path.size() < 2) return false;
+  append(graph, ahead, before, to_m, builder);
   return true;
 }
 
@@ -221,7 +232,7 @@ Route route_through(const LaneGraph& graph, const RouteStart& start, const Route
   const Passages passages = passages_ahead(graph, start, wish, start.arc_m + ahead_m);
   for (const Passage& passage : passages.all) append(builder, passage);
   const Turn turn = passages.wished(wish, route.points.back().along_m - vehicle_m);
-  append_driven(graph, wish.before, turn, behind_m + ahead_m, builder);
+  append_path(graph, wish.before, turn, behind_m + ahead_m, builder);
   return route;
 }
 
@@ -243,7 +254,7 @@ std::optional<Route> route_beyond(const LaneGraph& graph, const Way& rest, doubl
   Polyline line;
   for (const WayStation& station : rest.stations) line.push_back(station.point);
   builder.append(line, {.lane = {}});
-  if (!append_driven(graph, &rest, Turn::straight, ahead_m, builder)) return std::nullopt;
+  if (!append_path(graph, &rest, Turn::straight, ahead_m, builder)) return std::nullopt;
   return route;
 }
 

@@ -13,7 +13,8 @@ namespace laneloom::lanes {
 struct RoutePiece {
   DirectedLane lane;  ///< no lane: a passage
   Linkage::Turn entry = Linkage::Turn::unknown;
-  double lateral_stddev_m = kNotKnown_m;  ///< of a passage
+  double lateral_stddev_m = kNotKnown_m;  ///< of a passage, at its begin
+  double stddev_per_m = 0.0;              ///< by which that grows along the passage
 };
 
 /// A point of a route.
@@ -53,8 +54,8 @@ Route route_through(const LaneGraph& graph, const RouteStart& start, const Route
 Route route_into(const LaneGraph& graph, const DirectedLane& lane, const Eigen::Isometry3d& T_map_body,
                  const RouteWish& wish, const Stretch& range);
 
-/// The rest of a way that leads through no lane, and what others drove from its end on. Empty: nobody drove
-/// on.
+/// The rest of a way that leads through no lane, and from its end on what others drove, or as the street
+/// does. Empty: neither leads on.
 std::optional<Route> route_beyond(const LaneGraph& graph, const Way& rest, double ahead_m);
 
 }  // namespace laneloom::lanes

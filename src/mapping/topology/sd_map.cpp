@@ -15,6 +15,7 @@ constexpr double kCell_m = 50.0;
 constexpr double kMaxDistance_m = 15.0;  // of a lane from the middle of its street
 constexpr double kMinCosine = 0.8;       // of the angle between a lane and its street
 constexpr double kMaxWay_m = 80.0;       // greatest detour between the two lanes
+constexpr double kStraight = 0.7071;     // cosine of the greatest angle of a street that leads straight on
 
 struct Foot {
   double distance_m, along_m;
@@ -103,6 +104,48 @@ int SdMap::one_way_at(const Eigen::Vector2d& place, const Eigen::Vector2d& direc
     against = against || cosine <= -kMinCosine;
   }
   return static_cast<int>(along) - static_cast<int>(against);
+}
+
+std::optional<SdMap::Place> SdMap::beside(const Eigen::Vector2d& place,
+                                          const Eigen::Vector2d& direction) const {
+  const Segment* segment = nearest(place, direction);
+  if (segment == nullptr) return std::nullopt;
+  const Eigen::Vector2d along = (segment->to - segment->from).normalized();
+  return Place{segment->from + foot_on(segment->from, segment->to, place).along_m * along, along};
+}
+
+Polyline SdMap::onward(const Eigen::Vector2d& place, const Eigen::Vector2d& direction,
+                       double length_m) const {
+  Polyline line;
+  const auto begin = beside(place, direction);
+  if (!begin) return line;
+  line.emplace_back(begin->point.x(), begin->point.y(), 0.0);
+  for (const Segment* segment = nearest(place, direction); segment != nullptr && length_m > 0.0;
+       segment = straight_on(*segment)) {
+    const Point step = Point(segment->to.x(), segment->to.y(), 0.0) - line.back();
+    const double step_m = step.norm();
+    if (step_m <= 0.0) continue;
+    line.emplace_back(line.back() + std::min(1.0, length_m / step_m) * step);
+    length_m -= step_m;
+  }
+  return line;
+}
+
+/// The street that leads on from the end of a segment: the only one, or the only one straight on. Null: none
+/// does.
+const SdMap::Segment* SdMap::straight_on(const Segment& segment) const {
+  std::vector<const Segment*> all, straight;
+  const auto following = leaving_.find(segment.end);
+  if (following == leaving_.end()) return nullptr;
+  const Eigen::Vector2d ahead = (segment.to - segment.from).normalized();
+  for (const std::size_t i : following->second) {
+    const Segment& next = segments_[i];
+    if (!may_follow(segment, next)) continue;
+    all.push_back(&next);
+    if ((next.to - next.from).normalized().dot(ahead) > kStraight) straight.push_back(&next);
+  }
+  if (all.size() == 1) return all.front();
+  return straight.size() == 1 ? straight.front() : nullptr;
 }
 
 bool SdMap::may_follow(const Segment& segment, const Segment& next) const {

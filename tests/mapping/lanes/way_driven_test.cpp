@@ -91,5 +91,54 @@ TEST(Way, WithoutALaneGoesOnWhereOthersDrove) {
   EXPECT_LT(way_on(map, test::at(30, 0.8), WayWish::straight, &before).known_m, 21.0);
 }
 
+/// A road whose own way goes on as a street does, from lane 1 to the left of straight on.
+LocalMap road_along_street() {
+  LocalMap map = driven_road();
+  map.driven_paths.clear();
+  map.lanes[1] = road_lane(2, {60, 12, 0}, {120, 24, 0});
+  Way way;
+  for (double s_m = 0.0; s_m <= 20.0; s_m += 1.0)
+    way.stations.push_back({.point = {s_m, 0, 0}, .lane = 1, .lateral_stddev_m = 0.2});
+  for (double s_m = 1.0; s_m <= 30.0; s_m += 1.0)
+    way.stations.push_back({.point = {20 + s_m, 0.2 * s_m, 0}, .lateral_stddev_m = 0.2 + 0.04 * s_m});
+  map.way = way;
+  return map;
+}
+
+TEST(Way, GoesOnAsTheStreetDoesAlongWhichTheMapsOwnWayLeads) {
+  LocalMap map = road_along_street();
+  const Way way = way_on(map, test::at(5));
+  EXPECT_THAT(ids(way), ElementsAre(1));
+  EXPECT_NEAR(way.known_m, 45.0, 1.5);
+  EXPECT_NEAR(way.stations.back().point.y(), 6.0, 0.5);
+  EXPECT_EQ(way.stations.back().status, ElementStatus::inferred);
+  EXPECT_NEAR(way.stations.back().lateral_stddev_m, 1.4, 0.1) << "it grows along the street";
+  EXPECT_NEAR(way.stations[25].lateral_stddev_m, 0.6, 0.1);
+  EXPECT_NEAR(way_on(map, test::at(5), WayWish::left).known_m, 15.0, 0.1) << "the wished turn is not there";
+  for (WayStation& station : map.way->stations) station.lateral_stddev_m = 0.6;
+  EXPECT_NEAR(way_on(map, test::at(5)).known_m, 15.0, 0.1) << "no street: the deviation does not grow";
+}
+
+TEST(Way, EntersTheLaneThatBeginsOnTheStreet) {
+  LocalMap map = road_along_street();
+  map.lanes[1] = road_lane(2, {45, 5, 0}, {120, 20, 0});
+  const Way way = way_on(map, test::at(5));
+  EXPECT_THAT(ids(way), ElementsAre(1, 2));
+  EXPECT_NEAR(way.known_m, 60.0, 0.1);
+  EXPECT_LT(largest_kink_deg(way, 4.0), 12.0);
+}
+
+TEST(Way, BeginsOnTheStreetWithoutALane) {
+  LocalMap map = road_along_street();
+  const Eigen::Isometry3d vehicle = test::at(30, 2);
+  const Way way = way_on(map, vehicle);
+  EXPECT_TRUE(way.lanes.empty());
+  EXPECT_NEAR(way.known_m, 20.0, 1.5);
+  EXPECT_GT(way.stations.front().lateral_stddev_m, 0.4);
+  const Way rest = way_on(map, test::at(35, 3), WayWish::straight, &way);
+  EXPECT_NEAR(rest.stations.front().lateral_stddev_m, way.stations[5].lateral_stddev_m, 0.1)
+      << "the deviation stays with the place";
+}
+
 }  // namespace
 }  // namespace laneloom::lanes

@@ -8,6 +8,7 @@ namespace laneloom::topology {
 namespace {
 
 using test::straight;
+using ::testing::ElementsAre;
 using Verdict = SdMap::Verdict;
 
 /// A main street from west to east through (0, 0), and a side street to the north.
@@ -106,6 +107,39 @@ TEST(SdMap, StreetsOfBothDirectionsSideBySideTellNothing) {
   EXPECT_EQ(map.one_way_at({0, 10}, east), 0);
   EXPECT_EQ(map.one_way_at({0, 2}, east), 1);
   EXPECT_EQ(map.one_way_at({0, 18}, east), -1);
+}
+
+TEST(SdMap, TellsThePlaceOnTheStreetBesideAPlace) {
+  const SdMap map(crossing_streets(), {});
+  const auto east = map.beside({30, -3}, Eigen::Vector2d::UnitX());
+  ASSERT_TRUE(east);
+  EXPECT_EQ(east->point, Eigen::Vector2d(30, 0));
+  EXPECT_EQ(east->direction, Eigen::Vector2d(1, 0));
+  EXPECT_EQ(map.beside({30, -3}, -Eigen::Vector2d::UnitX())->direction, Eigen::Vector2d(-1, 0));
+  EXPECT_FALSE(map.beside({30, -3}, Eigen::Vector2d::UnitY())) << "across the street";
+  EXPECT_FALSE(map.beside({30, -16}, Eigen::Vector2d::UnitX())) << "too far away";
+}
+
+TEST(SdMap, AStreetLeadsOnwardStraightAcrossAJunction) {
+  const SdMap map(crossing_streets(), {});
+  EXPECT_THAT(map.onward({-30, -3}, Eigen::Vector2d::UnitX(), 50.0),
+              ElementsAre(Point(-30, 0, 0), Point(0, 0, 0), Point(20, 0, 0)));
+  EXPECT_THAT(map.onward({80, -3}, Eigen::Vector2d::UnitX(), 50.0),
+              ElementsAre(Point(80, 0, 0), Point(100, 0, 0)))
+      << "to its end";
+  EXPECT_THAT(map.onward({-3, 30}, -Eigen::Vector2d::UnitY(), 50.0),
+              ElementsAre(Point(0, 30, 0), Point(0, 0, 0)))
+      << "to the junction: none leads straight on";
+}
+
+TEST(SdMap, AStreetLeadsOnwardRoundACornerButNotWhereItForks) {
+  std::vector<SdWay> ways = crossing_streets();
+  ways[0] = {.id = 1, .nodes = {10, 11}, .points = {{-100, 0}, {0, 0}}};
+  EXPECT_EQ(SdMap(ways, {}).onward({-30, -3}, Eigen::Vector2d::UnitX(), 50.0).back(), Point(0, 20, 0));
+  ways[1].points[1] = {100, 30};
+  ways.push_back({.id = 3, .nodes = {11, 14}, .points = {{0, 0}, {100, -30}}});
+  EXPECT_EQ(SdMap(ways, {}).onward({-30, -3}, Eigen::Vector2d::UnitX(), 50.0).back(), Point(0, 0, 0));
+  EXPECT_TRUE(SdMap().onward({-30, -3}, Eigen::Vector2d::UnitX(), 50.0).empty());
 }
 
 TEST(SdMap, WaysNeedTheirPoints) {
