@@ -235,7 +235,7 @@ TEST_F(CycloneRosNode, IsToldOfTheNodeThatTheServiceIs) {
   start_service("  announce: true\n");
   EXPECT_TRUE(wait_for("node", [](const json& node) {
     // Detections have two readers.
-    return node["namespace"] == "/fleet/car_1" && node["name"] == "laneloom" && node["readers"] == 4 &&
+    return node["namespace"] == "/fleet/car_1" && node["name"] == "laneloom" && node["readers"] == 5 &&
            node["writers"] == 4;
   }));
 }

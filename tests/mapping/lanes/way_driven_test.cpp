@@ -128,16 +128,13 @@ TEST(Way, EntersTheLaneThatBeginsOnTheStreet) {
   EXPECT_LT(largest_kink_deg(way, 4.0), 12.0);
 }
 
-TEST(Way, BeginsOnTheStreetWithoutALane) {
-  LocalMap map = road_along_street();
-  const Eigen::Isometry3d vehicle = test::at(30, 2);
-  const Way way = way_on(map, vehicle);
-  EXPECT_TRUE(way.lanes.empty());
-  EXPECT_NEAR(way.known_m, 20.0, 1.5);
-  EXPECT_GT(way.stations.front().lateral_stddev_m, 0.4);
-  const Way rest = way_on(map, test::at(35, 3), WayWish::straight, &way);
-  EXPECT_NEAR(rest.stations.front().lateral_stddev_m, way.stations[5].lateral_stddev_m, 0.1)
-      << "the deviation stays with the place";
+TEST(Way, TheRestAlongAStreetKeepsItsDeviation) {
+  const LocalMap map = road_along_street();
+  const Way before = way_on(map, test::at(5));
+  const Way rest = way_on(map, test::at(32, 2.4), WayWish::straight, &before);
+  EXPECT_THAT(ids(rest), ElementsAre());
+  EXPECT_NEAR(rest.stations.front().lateral_stddev_m, 0.7, 0.1) << "at the place where it was";
+  EXPECT_NEAR(rest.stations.back().lateral_stddev_m, 1.4, 0.1);
 }
 
 }  // namespace
