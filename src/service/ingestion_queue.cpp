@@ -94,7 +94,7 @@ void IngestionQueue::push(TrackedObjects&& objects, std::int64_t arrival_ns) {
 }
 
 void IngestionQueue::push(NextTurn&& turn, std::int64_t arrival_ns) {
-  push_optional(Input::next_turns, std::move(turn), arrival_ns);
+  push_optional(Input::next_turns, turn, arrival_ns);
 }
 
 template <class T>

@@ -73,7 +73,7 @@ struct MappingSession::State {
   std::string_view add(DetectionFrame&& frame, std::int64_t arrival_ns);
   /// Keeps a message of `kind`, "objects" or "next_turns", until its frame comes.
   template <class T>
-  void add(T&& message, const std::string& kind, PendingMessages<T>& pending);
+  void add(T message, const std::string& kind, PendingMessages<T>& pending);
   /// Whether a pose may follow `before`, after a pause of the poses or the service of at most `max_pause_s`.
   bool goes_on(const VehiclePose& pose, const StreamPoint& before) const {
     return follows(place(pose), before, gate_config, gate_config.max_stamp_step_s + max_pause_s);
@@ -156,10 +156,10 @@ std::string_view MappingSession::State::add(DetectionFrame&& frame, std::int64_t
 }
 
 template <class T>
-void MappingSession::State::add(T&& message, const std::string& kind, PendingMessages<T>& pending) {
+void MappingSession::State::add(T message, const std::string& kind, PendingMessages<T>& pending) {
   std::string_view refusal = defect(message, gate_config);
   const auto newest_pose_ns = newest_pose ? std::optional(newest_pose->stamp_ns) : std::nullopt;
-  if (refusal.empty()) refusal = pending.add(std::forward<T>(message), newest_pose_ns);
+  if (refusal.empty()) refusal = pending.add(std::move(message), newest_pose_ns);
   if (!refusal.empty()) refuse(kind, refusal);
   count(kind + "_dropped_queue_full", pending.drop_excess());
 }
@@ -258,7 +258,7 @@ void MappingSession::add(TrackedObjects objects) {
   state_->add(std::move(objects), "objects", state_->pending_objects);
 }
 
-void MappingSession::add(NextTurn turn) { state_->add(std::move(turn), "next_turns", state_->pending_turns); }
+void MappingSession::add(NextTurn turn) { state_->add(turn, "next_turns", state_->pending_turns); }
 
 void MappingSession::expire(std::int64_t now_ns) {
   state_->refuse("detections", "unsynchronised", state_->synchroniser.expire(now_ns));
