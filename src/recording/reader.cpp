@@ -76,8 +76,8 @@ class RecordingReader::Impl {
   std::optional<RawMessage> next_raw() {
     while (const auto message = next_of_file()) {
       RawMessage raw{static_cast<std::int64_t>(message->log_time_ns), 0, {}};
-      const auto copy = [&]<class T>(std::in_place_type_t<T> type) {
-        raw.topic = AnyMessage(type).index();
+      const auto copy = [&]<class T>(std::in_place_type_t<T> /*type*/) {
+        raw.topic = kTopicIndex<T>;
         raw.bytes.assign(message->data.begin(), message->data.end());
         return std::string_view();
       };

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 
 #include "laneloom/dds/topics.hpp"
@@ -27,6 +29,18 @@ extern const char* const kServiceStatusIdl;
 inline constexpr std::array<const char*, std::variant_size_v<AnyMessage>> kTopicNames{
     dds::kDetectionsTopic, dds::kVehiclePoseTopic, dds::kLaneMapTopic, dds::kRoadMarkingsTopic,
     dds::kStatusTopic,     dds::kObjectsTopic,     dds::kNextTurnTopic};
+
+/// The index of T among the types of a variant.
+template <class T, class... All>
+constexpr std::size_t index_among(const std::variant<All...>* /*type*/) {
+  std::size_t index = 0;
+  static_cast<void>(((std::is_same_v<T, All> || (++index, false)) || ...));
+  return index;
+}
+
+/// The index of T's topic in kTopicNames and in AnyMessage.
+template <class T>
+inline constexpr std::size_t kTopicIndex = index_among<T>(static_cast<const AnyMessage*>(nullptr));
 
 inline constexpr const char* kCdr = "cdr";
 inline constexpr const char* kOmgIdl = "omgidl";

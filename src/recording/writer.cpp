@@ -55,7 +55,7 @@ class RecordingWriter::Impl {
 
   template <class T>
   void write_cdr(ByteView message, std::int64_t log_time_ns) {
-    write_cdr(AnyMessage(std::in_place_type<T>).index(), message, log_time_ns);
+    write_cdr(kTopicIndex<T>, message, log_time_ns);
   }
 
   void write_cdr(std::size_t topic, ByteView message, std::int64_t log_time_ns) {

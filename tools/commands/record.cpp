@@ -101,13 +101,13 @@ class Recorder {
         scene_(options.scene ? std::optional<scene::SceneMaker>(options.config.dds.map_frame_id)
                              : std::nullopt),
         participant_(options.config.dds, "laneloom record"),
-        detections_(participant_, into_inbox(0)),
-        poses_(participant_, into_inbox(1)),
-        maps_(participant_, into_inbox(2)),
-        markings_(participant_, into_inbox(3)),
-        status_(participant_, into_inbox(4)),
-        objects_(participant_, into_inbox(5)),
-        next_turns_(participant_, into_inbox(6)) {
+        detections_(participant_, into_inbox<DetectionFrame>()),
+        poses_(participant_, into_inbox<VehiclePose>()),
+        maps_(participant_, into_inbox<PublishedMap>()),
+        markings_(participant_, into_inbox<RoadMarkings>()),
+        status_(participant_, into_inbox<ServiceStatus>()),
+        objects_(participant_, into_inbox<TrackedObjects>()),
+        next_turns_(participant_, into_inbox<NextTurn>()) {
     if (options.config.ros2.enabled) listen_to_nodes(options.config);
     fmt::print("Recording to {}\n", writer_.path());
     std::fflush(stdout);
@@ -145,9 +145,10 @@ class Recorder {
   }
 
  private:
-  dds::RawReader<DetectionFrame>::Callback into_inbox(std::size_t topic) {
-    return [this, topic](const dds::WriterId& /*writer*/, std::vector<std::uint8_t>&& message) {
-      inbox_.put({.topic = topic, .bytes = std::move(message)});
+  template <class T>
+  typename dds::RawReader<T>::Callback into_inbox() {
+    return [this](const dds::WriterId& /*writer*/, std::vector<std::uint8_t>&& message) {
+      inbox_.put({.topic = recording::kTopicIndex<T>, .bytes = std::move(message)});
     };
   }
 
@@ -155,22 +156,22 @@ class Recorder {
   void listen_to_nodes(const Config& config) {
     nodes_ = std::make_unique<ros2::Listener>(
         config, "laneloom record for ROS 2",
-        ros2::Inputs{.detections = as_own<DetectionFrame>(0, config.dds.map_frame_id),
-                     .poses = as_own<VehiclePose>(1, config.dds.map_frame_id),
-                     .objects = as_own<TrackedObjects>(5, config.dds.map_frame_id),
-                     .next_turns = as_own<NextTurn>(6, config.dds.map_frame_id)});
+        ros2::Inputs{.detections = as_own<DetectionFrame>(config.dds.map_frame_id),
+                     .poses = as_own<VehiclePose>(config.dds.map_frame_id),
+                     .objects = as_own<TrackedObjects>(config.dds.map_frame_id),
+                     .next_turns = as_own<NextTurn>(config.dds.map_frame_id)});
   }
   template <class T>
-  dds::ReaderCallbacks<T> as_own(std::size_t topic, const std::string& map_frame_id) {
+  dds::ReaderCallbacks<T> as_own(const std::string& map_frame_id) {
     dds::ReaderCallbacks<T> callbacks;
-    callbacks.sample = [this, topic, map_frame_id](T&& message) {
-      recording::RawMessage raw{.topic = topic};
+    callbacks.sample = [this, map_frame_id](T&& message) {
+      recording::RawMessage raw{.topic = recording::kTopicIndex<T>};
       dds::to_cdr(message, map_frame_id, raw.bytes);
       inbox_.put(std::move(raw));
     };
-    callbacks.refused = [this, topic](std::string_view reason) {
+    callbacks.refused = [this](std::string_view reason) {
       const std::lock_guard lock(refused_mutex_);
-      refused_.add(fmt::format("{}: {}", kTopicNames.at(topic), reason));
+      refused_.add(fmt::format("{}: {}", kTopicNames.at(recording::kTopicIndex<T>), reason));
     };
     return callbacks;
   }
@@ -181,7 +182,7 @@ class Recorder {
   Counts written_{}, dropped_{};
   SteadyClock::time_point next_flush_ = SteadyClock::now() + kFlushPeriod;
   dds::Participant participant_;
-  // In the order of kTopicNames. They end before the inbox that they fill.
+  // They end before the inbox that they fill.
   dds::RawReader<DetectionFrame> detections_;
   dds::RawReader<VehiclePose> poses_;
   dds::RawReader<PublishedMap> maps_;

@@ -7,6 +7,7 @@
 
 #include "config/config_file.hpp"
 #include "laneloom/dds/cdr.hpp"
+#include "recording/topics.hpp"
 #include "replay/message_source.hpp"
 
 namespace laneloom::commands {
@@ -19,7 +20,7 @@ std::string recorded_configuration(const std::string& path) {
   if (!recording::is_recording(path)) return {};
   const auto source = replay::open_messages(path, "map");
   if (std::string told = source->origin().configuration; !told.empty()) return told;
-  const std::size_t of_status = recording::AnyMessage(std::in_place_type<ServiceStatus>).index();
+  const std::size_t of_status = recording::kTopicIndex<ServiceStatus>;
   while (const auto message = source->next_raw()) {
     ServiceStatus status;
     if (message->topic == of_status && dds::from_cdr(message->bytes, "map", status).empty() &&

@@ -2,13 +2,14 @@
 
 #include <cmath>
 
+#include "recording/topics.hpp"
+
 namespace laneloom::replay {
 namespace {
 
 template <class T>
 bool is(const recording::RawMessage& message) {
-  static const std::size_t topic = recording::AnyMessage(std::in_place_type<T>).index();
-  return message.topic == topic;
+  return message.topic == recording::kTopicIndex<T>;
 }
 
 template <class T>

@@ -6,6 +6,7 @@
 #include "drawing/map_elements.hpp"
 #include "drawing/traffic_elements.hpp"
 #include "laneloom/dds/cdr.hpp"
+#include "recording/topics.hpp"
 #include "scene/scene_entities.hpp"
 
 namespace laneloom::scene {
@@ -61,10 +62,10 @@ foxglove::SceneUpdate SceneStream::update(std::vector<foxglove::SceneEntity> ent
 
 std::vector<SceneMessage> SceneMaker::take(const recording::RawMessage& message) {
   std::vector<SceneMessage> out;
-  if (message.topic == recording::AnyMessage(PublishedMap{}).index()) take_as<PublishedMap>(message, out);
-  if (message.topic == recording::AnyMessage(VehiclePose{}).index()) take_as<VehiclePose>(message, out);
-  if (message.topic == recording::AnyMessage(DetectionFrame{}).index()) take_as<DetectionFrame>(message, out);
-  if (message.topic == recording::AnyMessage(TrackedObjects{}).index()) take_as<TrackedObjects>(message, out);
+  if (message.topic == recording::kTopicIndex<PublishedMap>) take_as<PublishedMap>(message, out);
+  if (message.topic == recording::kTopicIndex<VehiclePose>) take_as<VehiclePose>(message, out);
+  if (message.topic == recording::kTopicIndex<DetectionFrame>) take_as<DetectionFrame>(message, out);
+  if (message.topic == recording::kTopicIndex<TrackedObjects>) take_as<TrackedObjects>(message, out);
   return out;
 }
 
