@@ -6,7 +6,7 @@
 
 namespace laneloom {
 
-/// Where the vehicle's route turns next, as plain data; idl/NextTurn.idl says what each field means.
+/// The next turn of the vehicle's route, as plain data; idl/NextTurn.idl says what each field means.
 struct NextTurn {
   std::int64_t stamp_ns = 0;                    ///< sensor clock
   std::uint64_t sequence = 0;                   ///< counts up by one per message of the writer

@@ -77,7 +77,7 @@ class MeasuredPolyline {
  private:
   static constexpr std::size_t kUnknown = std::numeric_limits<std::size_t>::max();
   struct Nearest;
-  /// What queries look at beside the point.
+  /// A point, as queries look at it.
   struct Vertex {
     double arc_m = 0.0;
     Eigen::Vector2d in_course = Eigen::Vector2d::Zero();  ///< the point, in the frame of the course

@@ -13,9 +13,9 @@ namespace laneloom {
 struct WayOptions {
   double reach_m = 60.0;  ///< greatest length; more than `step_m`
   double step_m = 1.0;    ///< between stations; more than 0
-  /// Where the wished turn is: the lane from which it is made ends within this range ahead of the vehicle. Of
-  /// several such lanes, it is the first one. Where no lane turns there, a branch that forks off to that side
-  /// is taken. Empty: it is the next turn that the map allows.
+  /// The range ahead of the vehicle within which the lane ends from which the wished turn is made. The first
+  /// of several such lanes is taken, or a branch that forks off to that side if no lane turns within the
+  /// range. Empty: the next turn that the map allows is made.
   std::optional<Stretch> turn_m = {};
 };
 

@@ -7,6 +7,7 @@
 
 #include "drive/steering.hpp"
 #include "laneloom/lane_graph.hpp"
+#include "mapping/lanes/wished_turn.hpp"
 
 namespace laneloom::drive {
 namespace {
@@ -21,11 +22,6 @@ constexpr double kPutBack_m = 20.0;   // beyond the place where it left its lane
 constexpr double kNear_m = 10.0;
 constexpr double kBodyWidth_m = 1.9;
 constexpr int kMaxVainRestarts = 100;  // some are expected: a drive goes on behind a lane that leads nowhere
-
-WayWish wish_for(Linkage::Turn turn) {
-  if (turn == Linkage::Turn::left) return WayWish::left;
-  return turn == Linkage::Turn::right ? WayWish::right : WayWish::straight;
-}
 
 /// Whether the lane at a place on the road, if there is one, is inferred.
 bool is_inferred(const LocalMap& map, Point place) {
@@ -123,7 +119,7 @@ void ClosedLoop::plan() {
                            .turn = turn.turn,
                            .distance_m = turn.distance_m});
   Plan next = next_plan(map, T_told_, told_.speed_mps, plan_,
-                        {.wish = wish_for(turn.turn), .by_published_way = spec_.by_published_way});
+                        {.wish = lanes::wish_of(turn.turn), .by_published_way = spec_.by_published_way});
   cause_ = cause_of_guess(map);
   in_inferred_lane_ = is_inferred(map, on_ground(told_.rear_axle));
   if (!started_) {

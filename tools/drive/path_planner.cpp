@@ -9,6 +9,7 @@
 #include "laneloom/way.hpp"
 #include "mapping/geometry/left_of.hpp"
 #include "mapping/geometry/smooth_step.hpp"
+#include "mapping/lanes/way_passages.hpp"
 
 namespace laneloom::drive {
 namespace {
@@ -90,7 +91,7 @@ std::optional<Entry> published_entry(const LocalMap& map) {
 /// Whether the lane of the vehicle ends soon, and no turn as it is wished follows it.
 bool looks_for_turn(const Entry& entry, WayWish wish) {
   if (wish != WayWish::left && wish != WayWish::right) return false;
-  const auto turn = wish == WayWish::left ? Linkage::Turn::left : Linkage::Turn::right;
+  const Linkage::Turn turn = lanes::turn_of(wish);
   const std::vector<WayLane>& lanes = entry.way.lanes;
   if (lanes.empty() || std::ranges::find(lanes, turn, &WayLane::entry) != lanes.end()) return false;
   const double end_m = lanes.front().range.to_m;

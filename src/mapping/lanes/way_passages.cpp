@@ -17,11 +17,6 @@ using Turn = Linkage::Turn;
 constexpr double kBranch_m = 1.5;    // that a branch lies further aside than the lane that goes on
 constexpr double kLookout_m = 25.0;  // ahead of a lane's end
 
-Turn turn_of(WayWish wish) {
-  if (wish == WayWish::left) return Turn::left;
-  return wish == WayWish::right ? Turn::right : Turn::straight;
-}
-
 /// How far passages step to the left from straight ahead of a lane's end.
 class StepAside {
  public:
@@ -56,7 +51,7 @@ bool is_offered(const std::vector<Passage>& passages, Turn turn) {
   return std::ranges::find(passages, turn, &Passage::turn) != passages.end();
 }
 
-/// Of passages that lead straight on, leaves those furthest to the side of a turn.
+/// Leaves, of passages that lead straight on, those furthest to the side of a turn.
 void keep_branch(const DirectedLane& from, Turn side, std::vector<Passage>& passages) {
   const StepAside step(from);
   const auto to_side_m = [&](const Passage& passage) {
@@ -84,10 +79,11 @@ void choose_branch(const DirectedLane& from, Turn wished, const RouteWish& wish,
 /// The passage to take. A passage that was chosen before stays, even where its turn or its probability is
 /// judged anew, unless another one makes the wished turn at last. Null: there is none.
 const Passage* chosen(const std::vector<Passage>& passages, Turn wished, const Way* before) {
+  const bool has_wished = is_offered(passages, wished);
   for (const Passage& passage : passages) {
     const WayLane* kept = find(before, passage.to);
     if (kept == nullptr || kept->entry == Turn::unknown) continue;
-    if (!is_offered(passages, wished) || passage.turn == wished || kept->entry == wished) return &passage;
+    if (!has_wished || passage.turn == wished || kept->entry == wished) return &passage;
   }
   return best_passage(passages, wished);
 }
@@ -124,6 +120,11 @@ Turn turn_at(const RouteWish& wish, double ahead_m) {
 }
 
 }  // namespace
+
+Turn turn_of(WayWish wish) {
+  if (wish == WayWish::left) return Turn::left;
+  return wish == WayWish::right ? Turn::right : Turn::straight;
+}
 
 const WayLane* find(const Way* way, const DirectedLane& lane) {
   if (way == nullptr) return nullptr;

@@ -34,6 +34,9 @@ struct Passages {
   Linkage::Turn wished(const RouteWish& wish, double ahead_m) const;
 };
 
+/// The turn that a wish asks for; straight on, where it asks for none.
+Linkage::Turn turn_of(WayWish wish);
+
 /// The lane of a way, walked in the same sense. Null: the way does not lead through it, or is null.
 const WayLane* find(const Way* way, const DirectedLane& lane);
 

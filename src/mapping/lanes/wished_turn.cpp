@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mapping/lanes/way_passages.hpp"
+
 namespace laneloom::lanes {
 namespace {
 
@@ -9,12 +11,12 @@ using Turn = Linkage::Turn;
 
 constexpr double kBefore_m = 30.0, kBehind_m = 15.0;  // the middle of the intersection
 
+}  // namespace
+
 WayWish wish_of(Turn turn) {
   if (turn == Turn::left) return WayWish::left;
   return turn == Turn::right ? WayWish::right : WayWish::straight;
 }
-
-}  // namespace
 
 WishedTurn::WishedTurn(const NextTurn& turn, const Point& place)
     : wish_(wish_of(turn.turn)), distance_m_(turn.distance_m), place_(place) {}
@@ -31,9 +33,8 @@ bool WishedTurn::is_over(const Way* before, const Way* now) const {
   if (wish_ == WayWish::straight) return false;
   if (range().to_m < 0.0) return true;
   if (range().from_m > 0.0 || before == nullptr || now == nullptr) return false;
-  const Turn turn = wish_ == WayWish::left ? Turn::left : Turn::right;
   return std::ranges::any_of(before->lanes, [&](const WayLane& lane) {
-    return lane.entry == turn && lane.id == now->stations.front().lane;
+    return lane.entry == turn_of(wish_) && lane.id == now->stations.front().lane;
   });
 }
 

@@ -8,6 +8,9 @@
 
 namespace laneloom::lanes {
 
+/// The wish for a turn; straight on, where it is neither left nor right.
+WayWish wish_of(Linkage::Turn turn);
+
 /// The next turn of the route, as the vehicle comes nearer to it.
 class WishedTurn {
  public:
