@@ -99,6 +99,10 @@ inline CLI::Option* add_axes(CLI::App& command, std::string& axes) {
 /// are lost.
 inline constexpr std::chrono::seconds kDiscovery{1};
 
+/// A reader lets go of what it has not taken yet when it hears that the writer has ended. A process that
+/// wrote lives on for this long, so that its last messages are taken.
+inline constexpr std::chrono::milliseconds kDelivery{500};
+
 /// Adds the options that tell which service is meant, and how it is reached. Returns them.
 inline std::vector<CLI::Option*> add_dds(CLI::App& command, DdsConfig& dds) {
   auto* domain = command.add_option("--domain", dds.domain, "DDS domain")

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
 #include "base/clock.hpp"
 #include "base/random_id.hpp"
@@ -164,6 +165,7 @@ void publish(const PublishOptions& options) {
     if (!sleep_until(start + std::chrono::nanoseconds(std::llround(due_ns)))) break;
     publisher.step(step);
   }
+  std::this_thread::sleep_for(kDelivery);
   publisher.finish();
 }
 

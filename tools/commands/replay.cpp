@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <memory>
 #include <stdexcept>
+#include <thread>
 
 #include "commands/check_drive.hpp"
 #include "commands/commands.hpp"
@@ -195,6 +196,7 @@ void play(const ReplayOptions& options) {
     player.publish(*message);
     bar.step(source->progress());
   }
+  std::this_thread::sleep_for(kDelivery);
   bar.clear();
   warn_of(options.in, source->refused(), source->left_out());
   fmt::print("{} detections and {} poses published", player.detections(), player.poses());
