@@ -18,6 +18,7 @@ struct SdWay {
   std::vector<std::int64_t> nodes;      ///< at least two; ways meet where they have one in common
   std::vector<Eigen::Vector2d> points;  ///< of the nodes, map frame
   bool oneway = false;                  ///< in the order of the nodes
+  int lanes = 0;                        ///< of both directions together; 0: not known
 };
 
 /// A restriction at a node: traffic from one way may not turn into another way, or into no other (`only`).
@@ -26,8 +27,8 @@ struct SdRestriction {
   bool only = false;  ///< `to_way` is the only way that may be entered; else it may not be entered
 };
 
-/// A standard-definition map: which streets lead into which (paper, Sec. III-D-4), and which are one-way
-/// streets. Immutable.
+/// A standard-definition map: which streets lead into which (paper, Sec. III-D-4), which are one-way streets,
+/// and how many lanes they have. Immutable.
 class SdMap {
  public:
   SdMap() = default;
@@ -52,6 +53,11 @@ class SdMap {
   /// street. `direction` has unit length. Map frame.
   int one_way_at(const Eigen::Vector2d& place, const Eigen::Vector2d& direction) const;
 
+  /// How many lanes the street at a place has, of both directions together. 0: the streets around it, as for
+  /// one_way_at(), do not all tell the same number; or traffic of either direction has one-way streets of its
+  /// own, whose lanes the place may lie beside. `direction` has unit length. Map frame.
+  int lanes_at(const Eigen::Vector2d& place, const Eigen::Vector2d& direction) const;
+
   /// A place in the middle of a street, and the direction in which traffic drives on from there.
   struct Place {
     Eigen::Vector2d point, direction;
@@ -74,6 +80,8 @@ class SdMap {
   using Cell = std::pair<int, int>;
 
   void enter_into_cells(std::size_t index);
+  template <class Visit>
+  void visit_around(const Eigen::Vector2d& place, const Eigen::Vector2d& direction, Visit&& visit) const;
   const Segment* nearest(const Eigen::Vector2d& point, const Eigen::Vector2d& direction) const;
   bool may_follow(const Segment& segment, const Segment& next) const;
   const Segment* straight_on(const Segment& segment) const;

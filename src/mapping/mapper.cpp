@@ -44,9 +44,16 @@ geometry::Scene next_scene(const DetectionFrame& frame, const Eigen::Isometry3d&
           .frame = ++state.frame};
 }
 
+/// What is the same for every frame.
+struct Setup {
+  const MapperConfig& config;
+  const SdMap& sd_map;
+};
+
 /// The lanes of the map, with the boundaries that they lie between.
 lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry::Scene& scene,
-                           const MapperConfig& config, const markings::StageLog& log, MapperState& state) {
+                           const Setup& setup, const markings::StageLog& log, MapperState& state) {
+  const MapperConfig& config = setup.config;
   boundaries::Boundaries boundaries =
       log.done(Stage::lane_boundaries,  // III-D-1
                boundaries::lane_boundaries(fused.markings, fused.joints, config.boundary));
@@ -60,7 +67,7 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
   state.drive_through(T_map_body.translation());
   lanes::LaneLayout found = state.inferred.recognise(
       lanes::find_lanes(std::move(sections), scene.box, {{&T_map_body, 1}, state.driven},
-                        state.lane_tracks.known_borders(), config.lane),
+                        {state.lane_tracks.known_borders(), &setup.sd_map}, config.lane),
       scene, config.lane, state.ids);  // III-D-3
   return log.done(Stage::lanes,
                   state.lane_tracks.update(std::move(found), scene, config.lane, state.ids,  // ours
@@ -205,7 +212,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
       state.fusion.update(std::move(observed), scene, config_, state.ids, log);  // III-B and III-C
   detections_unsure_ = fused.unsure;
   if (const lines::LineMapper* lines = state.fusion.lines()) lines_forgotten_ = lines->forgotten();
-  lanes::LaneLayout layout = lanes_of(fused, scene, config_, log, state);
+  lanes::LaneLayout layout = lanes_of(fused, scene, {config_, sd_map_}, log, state);
   topology::RoadGraph road =
       topology::link_lanes(std::move(layout), config_.linkage);  // III-D-4; from here on ours
   topology::observe_directions(road.lanes, scene.T_map_body(), fused.markings, config_.stopline,

@@ -29,6 +29,7 @@ const std::set<std::string_view> kStreets{"motorway", "trunk",        "primary",
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMaxDistance_m = 1e6;  // from the origin; further away the projection has no meaning
 constexpr std::uintmax_t kMaxFileBytes = 128U << 20U;  // in memory a file takes five to eight times as much
+constexpr int kMaxLanes = 30;
 constexpr double kMaxStreets_m = 2e7;  // all streets; a few bytes can name streets that take all memory
 
 /// What a file is that is no XML, by its first bytes. Empty: nothing known.
@@ -81,16 +82,25 @@ bool is_street(const pugi::xml_node& way) {
   return kStreets.contains(highway);
 }
 
+/// The number of lanes that the tag lanes tells. 0: it tells none, or none that a street can have.
+int lanes_of(const pugi::xml_node& way) {
+  const std::string_view text = tag(way, "lanes");
+  int lanes = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), lanes);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  return is_number && lanes > 0 && lanes <= kMaxLanes ? lanes : 0;
+}
+
 /// Adds the parts of a way whose nodes are in the extract.
 void add_way(const pugi::xml_node& element, const std::map<OsmId, Eigen::Vector2d>& nodes,
              std::vector<SdWay>& ways) {
   const std::string_view oneway = tag(element, "oneway"), junction = tag(element, "junction");
-  SdWay way{
-      .id = id_of(element),
-      .nodes = {},
-      .points = {},
-      .oneway = oneway == "yes" || oneway == "1" || oneway == "true" || oneway == "-1" ||
-                (oneway.empty() && (junction == "roundabout" || tag(element, "highway") == "motorway"))};
+  SdWay way{.id = id_of(element),
+            .nodes = {},
+            .points = {},
+            .oneway = oneway == "yes" || oneway == "1" || oneway == "true" || oneway == "-1" ||
+                      (oneway.empty() && (junction == "roundabout" || tag(element, "highway") == "motorway")),
+            .lanes = lanes_of(element)};
   const auto finish = [&] {
     if (way.nodes.size() >= 2) ways.push_back(way);
     way.nodes.clear();

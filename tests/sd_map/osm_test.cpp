@@ -65,6 +65,19 @@ TEST_F(OsmFile, ReadsOnewayStreetsEitherWay) {
   EXPECT_EQ(read(kNodes + kMain + side("road", "no")).verdict(from_west_, to_north_), Verdict::connected);
 }
 
+TEST_F(OsmFile, ReadsTheNumberOfLanes) {
+  const auto lanes_with = [&](const std::string& value) {
+    const std::string tagged = R"(<tag k="lanes" v=")" + value + R"("/></way>)";
+    std::string street = side("residential");
+    street.replace(street.find("</way>"), 6, tagged);
+    return read(kNodes + street).lanes_at({0, 50}, Eigen::Vector2d::UnitY());
+  };
+  EXPECT_EQ(lanes_with("3"), 3);
+  for (const char* value : {"", "0", "-2", "1.5", "2;3", "1000", "two"})
+    EXPECT_EQ(lanes_with(value), 0) << value;
+  EXPECT_EQ(read(kNodes + side("residential")).lanes_at({0, 50}, Eigen::Vector2d::UnitY()), 0);
+}
+
 TEST_F(OsmFile, ReadsTurnRestrictions) {
   const std::string no_left = R"(<relation id="7">
       <tag k="type" v="restriction"/><tag k="restriction" v="no_left_turn"/>

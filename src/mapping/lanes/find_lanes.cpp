@@ -9,7 +9,7 @@
 namespace laneloom::lanes {
 
 FoundLanes find_lanes(boundaries::SectionGraph road, const geometry::MapBox& box, const Driven& driven,
-                      const KnownBorders& known, const LaneConfig& config) {
+                      const KnownRoad& known, const LaneConfig& config) {
   if (config.method == LaneMethod::paper) return paper_lanes(std::move(road), config);
   FoundLanes found = choose_lanes(road, box, driven, known, config);
   found.boundaries = std::move(road.boundaries);

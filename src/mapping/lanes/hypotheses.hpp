@@ -35,6 +35,12 @@ struct Driven {
 /// The left and the right boundaries of lanes that were known before.
 using KnownBorders = std::set<std::array<ElementId, 2>>;
 
+/// What is known of a road before its lanes are looked for.
+struct KnownRoad {
+  KnownBorders borders{};
+  const SdMap* sd_map = nullptr;  ///< null: there is none
+};
+
 /// The hypotheses about the lanes on the left of a boundary, and about an open lane on its right. `cuts` are
 /// its cross-sections. Lanes with unseen borders are left out as the configuration says.
 std::vector<Hypothesis> hypotheses(std::size_t boundary, const RoadCuts& cuts,

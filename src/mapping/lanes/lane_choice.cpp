@@ -28,17 +28,18 @@ constexpr double kSpared = 0.75;        // share of a lane's width up to where t
 class Choice {
  public:
   Choice(const boundaries::SectionGraph& road, const geometry::MapBox& box, const Driven& driven,
-         const KnownBorders& known, const LaneConfig& config)
+         const KnownRoad& known, const LaneConfig& config)
       : road_(road),
         box_(box),
         way_(driven.way),
-        known_(known),
+        known_(known.borders),
         config_(config),
         section_of_(road.boundaries.size()) {
     for (std::uint32_t s = 0; s < road.sections.size(); ++s)
       for (const std::size_t i : road.sections[s].boundaries) section_of_[i] = s;
     for (std::size_t i = 0; i < road.boundaries.size(); ++i) {
       cuts_.push_back(cut_along(i, road, config));
+      if (known.sd_map != nullptr) cuts_.back().look_up(*known.sd_map);
       for (Hypothesis& one : hypotheses(i, cuts_.back(), road, driven.poses, config))
         consider(std::move(one));
       against_.push_back(cuts_.back().has_opposed() ? cuts_.back().reversed() : RoadCuts());
@@ -298,7 +299,7 @@ class Choice {
 }  // namespace
 
 FoundLanes choose_lanes(const boundaries::SectionGraph& road, const geometry::MapBox& box,
-                        const Driven& driven, const KnownBorders& known, const LaneConfig& config) {
+                        const Driven& driven, const KnownRoad& known, const LaneConfig& config) {
   Choice choice(road, box, driven, known, config);
   choice.choose();
   return std::move(choice).result();

@@ -9,6 +9,6 @@ namespace laneloom::lanes {
 /// The lanes of a road: the hypotheses with the greatest sums of log odds that do not overlap.
 /// `boundaries` and `forks` stay empty.
 FoundLanes choose_lanes(const boundaries::SectionGraph& road, const geometry::MapBox& box,
-                        const Driven& driven, const KnownBorders& known, const LaneConfig& config);
+                        const Driven& driven, const KnownRoad& known, const LaneConfig& config);
 
 }  // namespace laneloom::lanes

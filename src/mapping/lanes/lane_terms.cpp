@@ -55,6 +55,7 @@ constexpr double kMedian = -6.00;         // edges lie along the borders, within
 constexpr double kUnseenLine = -6.00;  // a line parts the marks not far along the road, which goes on unseen
 constexpr double kBend = -7.82;        // curvature, 1/m
 constexpr double kBendOpen = -18.67;   // likewise, where the other border is unseen
+constexpr double kStreetLanes = 2.00;  // the SD map tells as many lanes, or (negative) another number
 constexpr double kDrivenOpen = 2.40;   // the vehicle drives in the lane, whose other border is unseen
 constexpr double kDashedOpen = 1.31;   // dashed share of the line
 constexpr double kAlongEdgeOpen = -1.58;  // an edge lies along the line, on its other side
@@ -64,6 +65,8 @@ constexpr double kEdgeOfLanes = -1.51;    // lines near an edge, which rather ha
 constexpr double kLeastWidth_m = 2.3, kMaxWidth_m = 4.5, kMaxKerbWidth_m = 6.5, kDividedFrom_m = 6.5;
 constexpr double kUsualFrom_m = 2.8, kUsualTo_m = 3.5;
 constexpr double kLeastSpan_m = 0.1;
+constexpr double kLeastEach_m = 2.2,
+                 kMostEach_m = 6.5;  // width of a street by the lanes that it is told to have
 
 constexpr double kAlongEdge_m = 1.2;                // distance of a line that is painted along an edge
 constexpr double kLeastWithin_m = 0.15;             // of an edge from a border
@@ -240,6 +243,21 @@ double of_shoulder(const Surroundings& around, double width_m, Room room, const 
   return sum;
 }
 
+/// What the SD map's number of lanes says, where the street is seen from edge to edge.
+double of_street(const RoadCut& cut, const Candidate& candidate) {
+  if (cut.street_lanes == 0) return 0.0;
+  const auto is_edge = [](const Mark& mark) { return mark.is_edge && mark.log_odds > 0.0; };
+  const auto from_left = cut.marks.subspan(candidate.left);
+  const auto up_to_right = cut.marks.first(candidate.right + 1);
+  const auto left = std::ranges::find_if(from_left, is_edge);
+  const auto right = std::find_if(up_to_right.rbegin(), up_to_right.rend(), is_edge);
+  if (left == from_left.end() || right == up_to_right.rend()) return 0.0;
+  const double each_m = (left->lateral_m - right->lateral_m) / cut.street_lanes;
+  if (each_m < kLeastEach_m || each_m > kMostEach_m) return 0.0;
+  const double lanes = candidate.room == Room::divided ? 2.0 : 1.0;
+  return std::round(width_m(cut, candidate) / each_m) == lanes ? kStreetLanes : -kStreetLanes;
+}
+
 /// The log odds of lanes between two marks.
 double of_lane(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config) {
   const Surroundings around(cut, candidate);
@@ -256,6 +274,7 @@ double of_lane(const RoadCut& cut, const Candidate& candidate, const LaneConfig&
   for (const Side side : kSides)
     if (!around.border(side).is_edge && around.edge_along(side)) sum += kEdgeAlong;
   if (is_median(around)) sum += kMedian;
+  sum += of_street(cut, candidate);
   if (candidate.room == Room::between) {
     sum += kUnseenLine * candidate.parted * wide(wide_m) + kLineInside * around.inside(false) +
            kDashed * (dashed(left) + dashed(right)) + kBothSolid * solid(left) * solid(right);

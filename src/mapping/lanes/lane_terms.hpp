@@ -37,7 +37,7 @@ double width_m(const RoadCut& cut, const Candidate& candidate);
 bool is_kerb(const RoadCut& cut, std::size_t mark, Side side);
 
 /// The log odds that the lane (if divided: that each of the two) is there. The weights were fitted to
-/// simulated and real roads, by logistic regression (tools/README.md).
+/// simulated and real roads, by logistic regression (src/mapping/README.md).
 double log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config);
 
 }  // namespace laneloom::lanes

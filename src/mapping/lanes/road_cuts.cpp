@@ -144,6 +144,14 @@ void RoadCuts::insert(const Mark& mark) {
   if (mark.lateral_m < 0.0) ++row.cut.own;
 }
 
+void RoadCuts::look_up(const SdMap& sd_map) {
+  if (sd_map.empty()) return;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const RoadCut cut = (*this)[i];
+    rows_[i].cut.street_lanes = sd_map.lanes_at(cut.self().point.head<2>(), cut.ahead);
+  }
+}
+
 bool RoadCuts::has_opposed() const { return std::ranges::any_of(marks_, &Mark::opposed); }
 
 RoadCuts RoadCuts::reversed() const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "laneloom/config.hpp"
+#include "laneloom/sd_map.hpp"
 #include "mapping/boundaries/road_sections.hpp"
 
 /// Cross-sections of a road. Ours.
@@ -36,6 +37,7 @@ struct RoadCut {
   std::size_t own = 0;                               ///< that boundary among them
   Eigen::Vector2d ahead = Eigen::Vector2d::UnitX();  ///< as it runs
   double bend = 0.0;                                 ///< its curvature, 1/m, without sign
+  int street_lanes = 0;  ///< of the street, as the SD map tells; 0: it tells nothing
 
   const Mark& self() const { return marks[own]; }
 };
@@ -52,6 +54,8 @@ class RoadCuts {
   void add(const Eigen::Vector2d& ahead, double bend, const Mark& own);
   /// Adds a mark to the last cross-section.
   void insert(const Mark& mark);
+  /// Looks up the lanes of the streets that are cut.
+  void look_up(const SdMap& sd_map);
   std::size_t size() const { return rows_.size(); }
   RoadCut operator[](std::size_t i) const& {
     RoadCut cut = rows_[i].cut;

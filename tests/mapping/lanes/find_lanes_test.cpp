@@ -88,7 +88,7 @@ TEST(FindLanes, AKnownLaneIsDeniedWhereItsBordersTellOfNone) {
   const auto denied = [](const KnownBorders& known) {
     const Eigen::Isometry3d vehicle = test::at(10, kNowhere_m);
     return find_lanes(road_sections(road({edge(2.3), solid(3.5), dashed(3.4), solid(0)}), test::at(0), {}),
-                      test::scene(1).box, {{&vehicle, 1}, {}}, known, {})
+                      test::scene(1).box, {{&vehicle, 1}, {}}, {known}, {})
         .denied;
   };
   EXPECT_THAT(denied({}), IsEmpty()) << "a shoulder that never was a lane";
@@ -99,6 +99,23 @@ TEST(FindLanes, AKnownLaneIsDeniedWhereItsBordersTellOfNone) {
     EXPECT_NEAR(length(found.front().middle), 30.0, 1e-6);
     EXPECT_NEAR(found.front().middle.front().y(), kLeft_m - 1.15, 1e-6);
   }
+}
+
+TEST(FindLanes, TheSdMapTellsHowManyLanesAStreetHas) {
+  const auto found = [](const std::vector<Across>& strips, int lanes) {
+    const SdMap sd_map({{.id = 1, .nodes = {1, 2}, .points = {{-50, 2}, {80, 2}}, .lanes = lanes}}, {});
+    const Eigen::Isometry3d vehicle = test::at(10, kLeft_m - 2.5);
+    return find_lanes(road_sections(road(strips), test::at(0), {}), test::scene(1).box, {{&vehicle, 1}, {}},
+                      {{}, &sd_map}, {});
+  };
+  const std::vector<Across> street{edge(6.2), edge(0)};
+  EXPECT_THAT(widths(found(street, 1)), are({6.2}));
+  EXPECT_THAT(widths(found(street, 2)), IsEmpty());
+  EXPECT_EQ(found(street, 2).inferred.size(), 1U) << "the border between two lanes";
+  // The lanes of a street with a line: how many are on either side of that?
+  const std::vector<Across> half{edge(6.2), dashed(3.1), edge(0)};
+  EXPECT_THAT(widths(found(half, 2)), are({6.2, 3.1}));
+  EXPECT_THAT(widths(found(half, 3)), are({3.1}));
 }
 
 TEST(FindLanes, AMedianIsNone) {

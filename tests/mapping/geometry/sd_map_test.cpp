@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "mapping/shapes.hpp"
 
-namespace laneloom::topology {
+namespace laneloom {
 namespace {
 
 using test::straight;
@@ -99,6 +101,32 @@ TEST(SdMap, AOneWayStreetTellsWhichWayTrafficRunsBesideIt) {
   EXPECT_EQ(SdMap().one_way_at({5, 50}, north), 0);
 }
 
+TEST(SdMap, AStreetTellsHowManyLanesItHas) {
+  const Eigen::Vector2d north = Eigen::Vector2d::UnitY(), east = Eigen::Vector2d::UnitX();
+  std::vector<SdWay> ways = crossing_streets();
+  EXPECT_EQ(SdMap(ways, {}).lanes_at({5, 50}, north), 0);
+  ways[1].lanes = 2;
+  const SdMap map(ways, {});
+  EXPECT_EQ(map.lanes_at({5, 50}, north), 2);
+  EXPECT_EQ(map.lanes_at({-14, 50}, -north), 2);
+  EXPECT_EQ(map.lanes_at({5, 50}, east), 0) << "across the street";
+  EXPECT_EQ(map.lanes_at({16, 50}, north), 0) << "too far away";
+}
+
+TEST(SdMap, StreetsThatLieTogetherTellTheNumberOfLanesThatAllHave) {
+  const auto lanes_beside = [](int other, bool either_way) {
+    SdWay first{.id = 1, .nodes = {1, 2}, .points = {{-100, 0}, {100, 0}}, .oneway = true, .lanes = 2};
+    SdWay second{.id = 2, .nodes = {3, 4}, .points = {{-100, 10}, {100, 10}}, .oneway = true, .lanes = other};
+    if (either_way) std::ranges::reverse(second.points);
+    const SdMap map({first, second}, {});
+    return map.lanes_at({0, 4}, Eigen::Vector2d::UnitX());
+  };
+  EXPECT_EQ(lanes_beside(2, false), 2);
+  EXPECT_EQ(lanes_beside(1, false), 0);
+  EXPECT_EQ(lanes_beside(0, false), 0) << "the number of the other one is not known";
+  EXPECT_EQ(lanes_beside(2, true), 0) << "carriageways of one road";
+}
+
 TEST(SdMap, StreetsOfBothDirectionsSideBySideTellNothing) {
   const Eigen::Vector2d east = Eigen::Vector2d::UnitX();
   const SdMap map({{.id = 1, .nodes = {1, 2}, .points = {{-100, 0}, {100, 0}}, .oneway = true},
@@ -148,4 +176,4 @@ TEST(SdMap, WaysNeedTheirPoints) {
 }
 
 }  // namespace
-}  // namespace laneloom::topology
+}  // namespace laneloom

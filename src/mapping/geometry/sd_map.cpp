@@ -92,18 +92,36 @@ const SdMap::Segment* SdMap::nearest(const Eigen::Vector2d& point, const Eigen::
   return best;
 }
 
-int SdMap::one_way_at(const Eigen::Vector2d& place, const Eigen::Vector2d& direction) const {
+/// Calls `visit(way, is_along)` for the streets around a place, in each direction in which they may be
+/// driven.
+template <class Visit>
+void SdMap::visit_around(const Eigen::Vector2d& place, const Eigen::Vector2d& direction,
+                         Visit&& visit) const {
   const auto cell = cells_.find(cell_of(place));
-  if (cell == cells_.end()) return 0;
-  bool along = false, against = false;
+  if (cell == cells_.end()) return;
   for (const std::size_t i : cell->second) {
     const Segment& segment = segments_[i];
     if (foot_on(segment.from, segment.to, place).distance_m > kMaxDistance_m) continue;
     const double cosine = (segment.to - segment.from).normalized().dot(direction);
-    along = along || cosine >= kMinCosine;
-    against = against || cosine <= -kMinCosine;
+    if (std::abs(cosine) >= kMinCosine) visit(ways_[segment.way], cosine > 0.0);
   }
+}
+
+int SdMap::one_way_at(const Eigen::Vector2d& place, const Eigen::Vector2d& direction) const {
+  bool along = false, against = false;
+  visit_around(place, direction, [&](const SdWay&, bool is_along) { (is_along ? along : against) = true; });
   return static_cast<int>(along) - static_cast<int>(against);
+}
+
+int SdMap::lanes_at(const Eigen::Vector2d& place, const Eigen::Vector2d& direction) const {
+  std::optional<int> lanes;
+  bool agree = true, along = false, against = false;
+  visit_around(place, direction, [&](const SdWay& way, bool is_along) {
+    agree = agree && lanes.value_or(way.lanes) == way.lanes;
+    lanes = way.lanes;
+    if (way.oneway) (is_along ? along : against) = true;
+  });
+  return agree && !(along && against) ? lanes.value_or(0) : 0;
 }
 
 std::optional<SdMap::Place> SdMap::beside(const Eigen::Vector2d& place,
