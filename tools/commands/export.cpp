@@ -56,6 +56,8 @@ void check_files(const ExportOptions& options) {
   refuse_overwriting(read, {options.lanelet2, options.opendrive, options.geojson, options.report});
 }
 
+constexpr double kTold_m = 0.1;  // a smaller bend is not told
+
 /// A road of the drives that could be read, and what is told of them.
 struct Surveyed {
   exports::Survey survey;
@@ -69,6 +71,9 @@ struct Surveyed {
       fmt::print(stderr, "laneloom: {}: is in the frame '{}', and the drives before in '{}'\n", file,
                  drive.frame_id, frame_id);
     const exports::Survey::Offset offset = survey.add(std::move(drive.lines));
+    if (offset.loops_m >= kTold_m)
+      fmt::print("{}: bent by up to {:.2f} m, so that the road to which it comes back is there once\n", file,
+                 offset.loops_m);
     if (!files.empty())
       fmt::print(
           "{}: moved by {:.2f} m (at most {:.2f} m and {:.2f} deg); {:.0f} % of its lines are on the road so "
@@ -76,6 +81,7 @@ struct Surveyed {
           file, offset.mean_m, offset.greatest_m, offset.greatest_deg, 100.0 * offset.met_share);
     files.push_back(file);
     drives.push_back({{"file", file},
+                      {"loops_m", offset.loops_m},
                       {"mean_m", offset.mean_m},
                       {"greatest_m", offset.greatest_m},
                       {"greatest_deg", offset.greatest_deg},

@@ -7,18 +7,19 @@
 
 #include "base/degree.hpp"
 #include "export/drive_stations.hpp"
+#include "export/motions.hpp"
 
 namespace laneloom::exports {
 namespace {
 
-using Motion = Eigen::Vector4d;  ///< x, y, z in metres and yaw in radians, about a place
 /// A motion, and drift: how far the vehicle comes ahead (m) and turns left (rad) beyond what its poses say,
 /// per metre driven.
 using State = Eigen::Matrix<double, 6, 1>;
 using Covariance = Eigen::Matrix<double, 6, 6>;
 
 // Deviations of a drive's place and drift at first, and of what changes from station to station.
-const State kFirstStddev{{3.0, 3.0, 3.0, 1.0 * kDegree, 0.02, 3e-4}};
+constexpr double kFirst_m = 3.0;
+const State kFirstStddev{{kFirst_m, kFirst_m, kFirst_m, 1.0 * kDegree, 0.02, 3e-4}};
 const State kStepStddev{{0.02, 0.02, 0.05, 3e-4, 1e-3, 2e-5}};
 // Where the road is not known, nothing holds the drift that was found: it is forgotten over this.
 constexpr double kDriftMemory_m = 30.0;
@@ -47,24 +48,6 @@ struct Estimate {
   bool is_held = false;  ///< samples of the station lie on the road
 };
 
-Eigen::Vector2d left_of(const Eigen::Vector2d& along) { return {-along.y(), along.x()}; }
-
-double yaw_of(const Eigen::Isometry3d& T) { return std::atan2(T(1, 0), T(0, 0)); }
-
-/// `T` turned and moved about a place of the road.
-Eigen::Isometry3d moved(const Eigen::Isometry3d& T, const Motion& by, const Point& about) {
-  return Eigen::Translation3d(about + by.head<3>()) * Eigen::AngleAxisd(by[3], Point::UnitZ()) *
-         Eigen::Translation3d(-about) * T;
-}
-
-/// The motion about a place of the road that leads from one transform to another.
-Motion motion(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, const Point& about) {
-  const Eigen::Isometry3d step = to * from.inverse();
-  Motion by;
-  by << step * about - about, yaw_of(step);
-  return by;
-}
-
 /// The change from one estimate to another.
 State difference(const Estimate& from, const Estimate& to, const Point& about) {
   State by;
@@ -80,10 +63,13 @@ void change(Estimate& estimate, const State& by, const Point& about) {
 /// Follows a drive along a road.
 class Follower {
  public:
-  Follower(const std::vector<DriveStation>& stations, const LineArchive& road)
-      : stations_(stations), road_(road) {}
+  Follower(const std::vector<DriveStation>& stations, const LineArchive& road, double stddev_m)
+      : stations_(stations), road_(road) {
+    first_.covariance.topLeftCorner<3, 3>() = stddev_m * stddev_m * Eigen::Matrix3d::Identity();
+  }
 
-  std::vector<Eigen::Isometry3d> follow();
+  /// The estimates for the stations. The last one is smoothed as it is; the covariances are the filter's.
+  std::vector<Estimate> follow();
 
  private:
   Point place(std::size_t k, const Eigen::Isometry3d& T_road_drive) const {
@@ -103,6 +89,7 @@ class Follower {
 
   const std::vector<DriveStation>& stations_;
   const LineArchive& road_;
+  Estimate first_;
 };
 
 /// The estimate for a station by that for the one before. `carry` is its derivative.
@@ -226,12 +213,12 @@ void Follower::correct(std::size_t k, Estimate& estimate) const {
   estimate.covariance = H.inverse();
 }
 
-std::vector<Eigen::Isometry3d> Follower::follow() {
+std::vector<Estimate> Follower::follow() {
   std::vector<Estimate> predicted, filtered;
   std::vector<Covariance> carried;
   for (std::size_t k = 0; k < stations_.size(); ++k) {
     Covariance& carry = carried.emplace_back(Covariance::Identity());
-    Estimate estimate = k > 0 ? predict(k, filtered.back(), carry) : Estimate{};
+    Estimate estimate = k > 0 ? predict(k, filtered.back(), carry) : first_;
     predicted.push_back(estimate);
     if (is_lost(k, estimate)) search(k, estimate);
     if (!is_lost(k, estimate)) correct(k, estimate);
@@ -243,30 +230,7 @@ std::vector<Eigen::Isometry3d> Follower::follow() {
     const State found = difference(ahead, smoothed, place(k + 1, ahead.T_road_drive));
     change(filtered[k], gain * found, place(k, filtered[k].T_road_drive));
   }
-  std::vector<Eigen::Isometry3d> transforms(filtered.size());
-  std::ranges::transform(filtered, transforms.begin(), &Estimate::T_road_drive);
-  return transforms;
-}
-
-/// The transforms for the poses of a drive, between those of its stations.
-std::vector<Eigen::Isometry3d> between(const std::vector<DriveStation>& stations,
-                                       const std::vector<Eigen::Isometry3d>& T_road_drive,
-                                       const DriveLines& drive) {
-  std::vector<Eigen::Isometry3d> result;
-  double driven_m = 0.0;
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < drive.poses.size(); ++i) {
-    if (i > 0) driven_m += (drive.poses[i].translation() - drive.poses[i - 1].translation()).norm();
-    while (k + 2 < stations.size() && stations[k + 1].driven_m < driven_m) ++k;
-    const std::size_t next = std::min(k + 1, stations.size() - 1);
-    const double length_m = stations[next].driven_m - stations[k].driven_m;
-    const double share =
-        length_m > 0.0 ? std::clamp((driven_m - stations[k].driven_m) / length_m, 0.0, 1.0) : 0.0;
-    const Point about = T_road_drive[k] * Point(drive.poses[i].translation());
-    result.push_back(
-        moved(T_road_drive[k], share * motion(T_road_drive[k], T_road_drive[next], about), about));
-  }
-  return result;
+  return filtered;
 }
 
 }  // namespace
@@ -275,7 +239,32 @@ std::vector<Eigen::Isometry3d> align(const DriveLines& drive, const LineArchive&
   if (road.empty() || drive.poses.empty())
     return std::vector<Eigen::Isometry3d>(drive.poses.size(), Eigen::Isometry3d::Identity());
   const std::vector<DriveStation> stations = stations_of(drive);
-  return between(stations, Follower(stations, road).follow(), drive);
+  std::vector<Eigen::Isometry3d> T_road_drive;
+  for (const Estimate& estimate : Follower(stations, road, kFirst_m).follow())
+    T_road_drive.push_back(estimate.T_road_drive);
+  return between(stations, T_road_drive, drive);
+}
+
+std::optional<EndOnRoad> end_on_road(const DriveLines& drive, const LineArchive& road, double stddev_m) {
+  if (road.empty() || drive.poses.empty()) return std::nullopt;
+  const std::vector<DriveStation> stations = stations_of(drive);
+  const Estimate end = Follower(stations, road, stddev_m).follow().back();
+  if (!end.is_held) return std::nullopt;
+  return EndOnRoad{end.T_road_drive, end.covariance.topLeftCorner<4, 4>()};
+}
+
+double met_share(const std::vector<ArchivedPiece>& pieces, const Eigen::Isometry3d& T_road_drive,
+                 const LineArchive& road) {
+  const auto R = T_road_drive.linear().topLeftCorner<2, 2>();
+  std::size_t met = 0, all = 0;
+  for (const ArchivedPiece& piece : pieces) {
+    for (const DriveStation::Sample& sample : samples_of(piece.marking)) {
+      met +=
+          road.nearest(sample.type, T_road_drive * sample.position, R * sample.along, kSameLine_m) ? 1U : 0U;
+      ++all;
+    }
+  }
+  return all == 0 ? 0.0 : static_cast<double>(met) / static_cast<double>(all);
 }
 
 }  // namespace laneloom::exports

@@ -7,8 +7,9 @@
 
 #include "base/degree.hpp"
 #include "export/align.hpp"
-#include "export/drive_stations.hpp"
 #include "export/driven_over.hpp"
+#include "export/loops.hpp"
+#include "export/motions.hpp"
 
 namespace laneloom::exports {
 namespace {
@@ -17,28 +18,11 @@ constexpr double kPlace_m = 4.0;
 constexpr int kHeadings = 8;
 constexpr int kEnoughWays = 3;  // more drives along one way tell nothing new of its lanes
 
-Marking moved(Marking marking, const Eigen::Isometry3d& T) {
-  for (Point& point : marking.points) point = T * point;
-  return marking;
-}
-
 std::array<int, 3> way_key(const Eigen::Isometry3d& pose) {
   const double heading = std::atan2(pose(1, 0), pose(0, 0)) / (2.0 * std::numbers::pi);
   return {static_cast<int>(std::floor(pose.translation().x() / kPlace_m)),
           static_cast<int>(std::floor(pose.translation().y() / kPlace_m)),
           static_cast<int>(std::floor((heading + 0.5) * kHeadings)) % kHeadings};
-}
-
-/// The share of a drive's lines that lie on lines of a road.
-double met_share(const std::vector<ArchivedPiece>& pieces, const LineArchive& road) {
-  std::size_t met = 0, all = 0;
-  for (const ArchivedPiece& piece : pieces) {
-    for (const DriveStation::Sample& sample : samples_of(piece.marking)) {
-      met += road.nearest(sample.type, sample.position, sample.along, kSameLine_m) ? 1U : 0U;
-      ++all;
-    }
-  }
-  return all == 0 ? 0.0 : static_cast<double>(met) / static_cast<double>(all);
 }
 
 Survey::Offset offset_of(const std::vector<Eigen::Isometry3d>& poses,
@@ -58,18 +42,21 @@ Survey::Offset offset_of(const std::vector<Eigen::Isometry3d>& poses,
 }  // namespace
 
 Survey::Offset Survey::add(DriveLines drive) {
+  const std::vector<Eigen::Isometry3d> T_closed_drive = close_loops(drive);
+  const double loops_m = offset_of(drive.poses, T_closed_drive).greatest_m;
+  move(T_closed_drive, drive);
   const std::vector<Eigen::Isometry3d> T_road_drive = align(drive, archive_);
   Offset offset = offset_of(drive.poses, T_road_drive);
+  offset.loops_m = loops_m;
+  move(T_road_drive, drive);
+  offset.met_share = met_share(drive.pieces, Eigen::Isometry3d::Identity(), archive_);
   std::uint64_t last_pass = 0;
   for (ArchivedPiece& piece : drive.pieces) {
-    piece.marking = moved(std::move(piece.marking), T_road_drive[piece.pose]);
     last_pass = piece.pass;
     piece.pass += passes_;
+    archive_.add(piece);
   }
   passes_ += last_pass + 1;
-  offset.met_share = met_share(drive.pieces, archive_);
-  for (const ArchivedPiece& piece : drive.pieces) archive_.add(piece);
-  for (std::size_t i = 0; i < drive.poses.size(); ++i) drive.poses[i] = T_road_drive[i] * drive.poses[i];
   archive_.end_drive(drive.poses);
   keep_way(drive.poses);
   return offset;

@@ -19,15 +19,17 @@ struct SurveyedRoad {
       poses;  ///< T_map_body, about every 2 m along each drive, one drive after another
 };
 
-/// Makes one road of one drive or many. Each drive is moved onto the road of those before (align.hpp). Lines
-/// of several passes are made one (line_archive.hpp). Roadedges where a vehicle drove are left out
-/// (driven_over.hpp). Memory grows with the road, not with the drives. Not thread-safe.
+/// Makes one road of one drive or many. The loops of each drive are closed (loops.hpp), and each drive is
+/// moved onto the road of those before (align.hpp). Lines of several passes are made one (line_archive.hpp).
+/// Roadedges where a vehicle drove are left out (driven_over.hpp). Memory grows with the road, not with the
+/// drives. Not thread-safe.
 class Survey {
  public:
   /// The way in which a drive was moved.
   struct Offset {
     double mean_m = 0.0, greatest_m = 0.0;  ///< horizontal, over the drive
     double greatest_deg = 0.0;
+    double loops_m = 0.0;    ///< horizontal, greatest: how far it was bent before, to close its loops
     double met_share = 0.0;  ///< the share of its lines that lie on lines of earlier drives
   };
 
