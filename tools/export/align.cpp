@@ -255,7 +255,7 @@ std::optional<EndOnRoad> end_on_road(const DriveLines& drive, const LineArchive&
 
 double met_share(const std::vector<ArchivedPiece>& pieces, const Eigen::Isometry3d& T_road_drive,
                  const LineArchive& road) {
-  const auto R = T_road_drive.linear().topLeftCorner<2, 2>();
+  const Eigen::Matrix2d R = T_road_drive.linear().topLeftCorner<2, 2>();
   std::size_t met = 0, all = 0;
   for (const ArchivedPiece& piece : pieces) {
     for (const DriveStation::Sample& sample : samples_of(piece.marking)) {
