@@ -44,6 +44,13 @@ geometry::Scene next_scene(const DetectionFrame& frame, const Eigen::Isometry3d&
           .frame = ++state.frame};
 }
 
+/// Takes the vehicle's way up to the next map.
+void drive_on(const Point& vehicle, MapperState& state) {
+  state.trails.keep_around(vehicle);
+  state.drive_through(vehicle);
+  state.fusion.drive_over(state.driven);
+}
+
 /// What is the same for every frame.
 struct Setup {
   const MapperConfig& config;
@@ -64,7 +71,6 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
       log.done(Stage::road_sections,
                road_sections(std::move(boundaries), scene.T_map_body(), config.section));  // III-D-2
   const Eigen::Isometry3d T_map_body = scene.T_map_body();
-  state.drive_through(T_map_body.translation());
   lanes::LaneLayout found = state.inferred.recognise(
       lanes::find_lanes(std::move(sections), scene.box, {{&T_map_body, 1}, state.driven},
                         {state.lane_tracks.known_borders(), &setup.sd_map}, config.lane),
@@ -207,7 +213,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
     return state.map;
   }
   const geometry::Scene scene = next_scene(frame, seen_from, config_.range, state);
-  state.trails.keep_around(scene.T_map_body().translation());
+  drive_on(scene.T_map_body().translation(), state);
   markings::FusedMarkings fused =
       state.fusion.update(std::move(observed), scene, config_, state.ids, log);  // III-B and III-C
   detections_unsure_ = fused.unsure;

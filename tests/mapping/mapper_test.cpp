@@ -100,6 +100,20 @@ TEST_P(EitherMapper, LanesTellWhatTheirEvidenceIs) {
   }
 }
 
+TEST(Mapper, NoEdgeLiesWhereTheVehicleDrove) {
+  Drive drive;
+  std::vector<Detection> with_ghost = road();
+  with_ghost.push_back(detection(MarkingType::roadedge, straight({-50, -0.6, 0.1}, {300, -0.6, 0.1})));
+  for (int i = 0; i < 40; ++i) drive.step(with_ghost);
+  const auto is_ghost = [](const Marking& marking) {
+    return marking.type == MarkingType::roadedge && std::abs(marking.points.front().y()) < 2.0;
+  };
+  const std::vector<Marking>& markings = drive.mapper.map().markings;
+  ASSERT_EQ(std::ranges::count_if(markings, is_ghost), 1);
+  const auto ghost = std::ranges::find_if(markings, is_ghost);
+  EXPECT_GT(ghost->points.front().x(), drive.x - 3.0) << "it lies ahead alone";
+}
+
 TEST_P(EitherMapper, DetectionsThatAreDroppedForTheirConfidenceAreCounted) {
   Drive drive(GetParam());
   auto detections = road();

@@ -4,13 +4,13 @@
 
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/levels.hpp"
+#include "mapping/lines/driven_over.hpp"
 #include "mapping/markings/markings.hpp"
 
 namespace laneloom::exports {
 namespace {
 
-constexpr double kHalfBody_m = 0.8;  // of a narrow car, because a true edge may be near a broad one
-constexpr double kMaxStep_m = 5.0;   // between poses of one pass
+constexpr double kMaxStep_m = 5.0;  // between poses of one pass
 constexpr double kSampleStep_m = 0.5;
 constexpr double kMinRest_m = 2.0;
 
@@ -28,8 +28,8 @@ std::vector<MeasuredPolyline> ways_of(const std::vector<Eigen::Isometry3d>& pose
 
 bool is_driven_over(const Point& point, const std::vector<MeasuredPolyline>& ways) {
   return std::ranges::any_of(ways, [&](const MeasuredPolyline& way) {
-    const Projection foot = way.project(point, kHalfBody_m);
-    return foot.inside && foot.distance_m < kHalfBody_m && geometry::same_level(foot.foot, point);
+    const Projection foot = way.project(point, lines::kHalfBody_m);
+    return foot.inside && foot.distance_m < lines::kHalfBody_m && geometry::same_level(foot.foot, point);
   });
 }
 
