@@ -35,23 +35,19 @@ namespace laneloom {
 namespace {
 
 /// The scene of the next map. A frame may come after newer ones of another source: it is fused as it was
-/// seen, into the present map.
+/// seen, into the present map. The way of the vehicle leads on to there.
 geometry::Scene next_scene(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
                            const RangeConfig& range, MapperState& state) {
   const bool newest = frame.stamp_ns >= state.map.stamp_ns;
-  return {.box = geometry::MapBox(range, newest ? T_map_body : state.map.T_map_body),
+  const geometry::MapBox box(range, newest ? T_map_body : state.map.T_map_body);
+  state.drive_through(box.T_map_body().translation());
+  return {.box = box,
           .stamp_ns = newest ? frame.stamp_ns : state.map.stamp_ns,
-          .frame = ++state.frame};
+          .frame = ++state.frame,
+          .driven = state.driven};
 }
 
-/// Takes the vehicle's way up to the next map.
-void drive_on(const Point& vehicle, MapperState& state) {
-  state.trails.keep_around(vehicle);
-  state.drive_through(vehicle);
-  state.fusion.drive_over(state.driven);
-}
-
-/// What is the same for every frame.
+/// The parts of a mapper that stay the same for every frame.
 struct Setup {
   const MapperConfig& config;
   const SdMap& sd_map;
@@ -72,7 +68,7 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
                road_sections(std::move(boundaries), scene.T_map_body(), config.section));  // III-D-2
   const Eigen::Isometry3d T_map_body = scene.T_map_body();
   lanes::LaneLayout found = state.inferred.recognise(
-      lanes::find_lanes(std::move(sections), scene.box, {{&T_map_body, 1}, state.driven},
+      lanes::find_lanes(std::move(sections), scene.box, {{&T_map_body, 1}, scene.driven},
                         {state.lane_tracks.known_borders(), &setup.sd_map}, config.lane),
       scene, config.lane, state.ids);  // III-D-3
   return log.done(Stage::lanes,
@@ -213,7 +209,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
     return state.map;
   }
   const geometry::Scene scene = next_scene(frame, seen_from, config_.range, state);
-  drive_on(scene.T_map_body().translation(), state);
+  state.trails.keep_around(scene.T_map_body().translation());
   markings::FusedMarkings fused =
       state.fusion.update(std::move(observed), scene, config_, state.ids, log);  // III-B and III-C
   detections_unsure_ = fused.unsure;

@@ -37,11 +37,6 @@ class Fusion {  // NOLINT(bugprone-exception-escape)
                       method_);
   }
 
-  /// Notes the way that the vehicle drove, map frame. The paper's voxels take no notice.
-  void drive_over(const Polyline& way) {
-    if (lines() != nullptr) lines()->drive_over(way);
-  }
-
   /// Whether a frame from this pose tells next to nothing after those before.
   bool has_seen(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) const {
     return lines() != nullptr && lines()->has_seen(frame, T_map_body);

@@ -14,9 +14,9 @@ constexpr double kDenied = -20.0;  // log odds that no frame makes good
 
 }  // namespace
 
-void deny_driven_over(const Polyline& way, std::vector<Line>& lines) {
+void deny_driven_over(std::span<const Point> way, std::vector<Line>& lines) {
   if (way.size() < 2) return;
-  const MeasuredPolyline course(way);
+  const MeasuredPolyline course(Polyline(way.begin(), way.end()));
   for (Line& line : lines) {
     if (line.type() != MarkingType::roadedge) continue;
     for (std::size_t i = 0; i < line.stations.size(); ++i) {

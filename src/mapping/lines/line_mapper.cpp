@@ -85,7 +85,7 @@ markings::FusedMarkings LineMapper::fuse(markings::ObservedFrame observed, const
     lines_.push_back(std::move(line));
   }
   forgotten_ = keep_within_room(lines_);
-  deny_driven_over(way_, lines_);
+  deny_driven_over(scene.driven, lines_);
   std::vector<markings::Relative> relatives = unite(fusion, view.is_independent());
   std::ranges::copy(prune_lines(scene.box, fusion, lines_, ids), std::back_inserter(relatives));
   log.done(Stage::line_set);

@@ -25,10 +25,6 @@ class LineMapper {
                                const MapperConfig& config, markings::IdSource& ids,
                                const markings::StageLog& log);
 
-  /// Notes the way that the vehicle drove up to the next frame, map frame: no road edge lies there, see
-  /// deny_driven_over().
-  void drive_over(const Polyline& way) { way_ = way; }
-
   /// Whether a frame from this pose tells next to nothing after those before, see Standpoint.
   bool has_seen(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body) const;
 
@@ -65,7 +61,6 @@ class LineMapper {
   double away_variance_m2_ = 0.0;                  ///< running mean of its square
   Networks networks_;                              ///< what was learned of the sources
   std::size_t forgotten_ = 0;                      ///< not saved
-  Polyline way_;                                   ///< of the vehicle; not saved
 };
 
 }  // namespace laneloom::lines
