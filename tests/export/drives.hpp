@@ -31,6 +31,18 @@ inline MappedDrive map_drive(const std::string& scenario, const std::string& noi
   return drive;
 }
 
+/// A piece of a line that is believed, as it leaves the map at a drive's newest pose.
+inline exports::ArchivedPiece piece_of(ElementId id, MarkingType type, const Polyline& points,
+                                       const exports::DriveLines& drive) {
+  return {.marking = {.id = id,
+                      .type = type,
+                      .points = points,
+                      .lateral_stddev_m = std::vector<double>(points.size(), 0.1),
+                      .existence_probability = 0.9,
+                      .observations = 100},
+          .pose = drive.poses.size() - 1};
+}
+
 inline exports::DriveLines lines_of(const std::vector<LocalMap>& maps, const RangeConfig& range) {
   exports::DriveAccumulator accumulator(range);
   for (const LocalMap& map : maps) accumulator.add(map);

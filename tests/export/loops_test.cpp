@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "drives.hpp"
 #include "export/line_archive.hpp"
 #include "export/motions.hpp"
 #include "laneloom/polyline.hpp"
@@ -57,13 +58,7 @@ DriveLines drive_round(double length_m, double drift) {
       for (double at = s; at <= s + 4.0; at += 1.0)
         points.push_back(drive.poses.back() * truth.inverse() * on_circuit(at) *
                          Point(0.0, line.left_m, 0.0));
-      drive.pieces.push_back({.marking = {.id = id++,
-                                          .type = line.type,
-                                          .points = points,
-                                          .lateral_stddev_m = std::vector<double>(points.size(), 0.1),
-                                          .existence_probability = 0.9,
-                                          .observations = 100},
-                              .pose = drive.poses.size() - 1});
+      drive.pieces.push_back(test::piece_of(id++, line.type, points, drive));
     }
   }
   return drive;

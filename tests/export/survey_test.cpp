@@ -46,14 +46,7 @@ DriveLines drive_past(const std::vector<RoadLine>& lines, const Eigen::Isometry3
       Polyline points;
       for (double at = std::max(s, line.from_m); at <= std::min(s + 4.0, line.to_m); at += 1.0)
         points.push_back(T_drive_road * on_road(at, line.left_m));
-      if (points.size() > 1)
-        drive.pieces.push_back({.marking = {.id = id,
-                                            .type = line.type,
-                                            .points = points,
-                                            .lateral_stddev_m = std::vector<double>(points.size(), 0.1),
-                                            .existence_probability = 0.9,
-                                            .observations = 100},
-                                .pose = drive.poses.size() - 1});
+      if (points.size() > 1) drive.pieces.push_back(test::piece_of(id, line.type, points, drive));
       ++id;
     }
   }

@@ -253,14 +253,11 @@ std::optional<EndOnRoad> end_on_road(const DriveLines& drive, const LineArchive&
   return EndOnRoad{end.T_road_drive, end.covariance.topLeftCorner<4, 4>()};
 }
 
-double met_share(const std::vector<ArchivedPiece>& pieces, const Eigen::Isometry3d& T_road_drive,
-                 const LineArchive& road) {
-  const Eigen::Matrix2d R = T_road_drive.linear().topLeftCorner<2, 2>();
+double met_share(const std::vector<ArchivedPiece>& pieces, const LineArchive& road) {
   std::size_t met = 0, all = 0;
   for (const ArchivedPiece& piece : pieces) {
     for (const DriveStation::Sample& sample : samples_of(piece.marking)) {
-      met +=
-          road.nearest(sample.type, T_road_drive * sample.position, R * sample.along, kSameLine_m) ? 1U : 0U;
+      met += road.nearest(sample.type, sample.position, sample.along, kSameLine_m) ? 1U : 0U;
       ++all;
     }
   }

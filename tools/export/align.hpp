@@ -30,8 +30,7 @@ struct EndOnRoad {
 /// places around are tried. Empty: its last lines do not lie on the road.
 std::optional<EndOnRoad> end_on_road(const DriveLines& drive, const LineArchive& road, double stddev_m);
 
-/// The share of a drive's lines, moved by `T_road_drive`, that lie on lines of a road.
-double met_share(const std::vector<ArchivedPiece>& pieces, const Eigen::Isometry3d& T_road_drive,
-                 const LineArchive& road);
+/// The share of a drive's lines that lie on lines of a road.
+double met_share(const std::vector<ArchivedPiece>& pieces, const LineArchive& road);
 
 }  // namespace laneloom::exports

@@ -30,18 +30,24 @@ std::vector<DriveStation::Sample> samples_of(const Marking& line) {
   return samples;
 }
 
+std::vector<double> driven_to(const DriveLines& drive) {
+  std::vector<double> driven_m(drive.poses.size(), 0.0);
+  for (std::size_t i = 1; i < drive.poses.size(); ++i)
+    driven_m[i] = driven_m[i - 1] + (drive.poses[i].translation() - drive.poses[i - 1].translation()).norm();
+  return driven_m;
+}
+
 std::vector<DriveStation> stations_of(const DriveLines& drive) {
   std::vector<DriveStation> stations;
   auto piece = drive.pieces.begin();
-  double driven_m = 0.0;
+  const std::vector<double> driven_m = driven_to(drive);
   std::vector<DriveStation::Sample> samples;
   for (std::size_t i = 0; i < drive.poses.size(); ++i) {
     const bool is_last = i + 1 == drive.poses.size();
-    if (i > 0) driven_m += (drive.poses[i].translation() - drive.poses[i - 1].translation()).norm();
     for (; piece != drive.pieces.end() && piece->pose <= i; ++piece)
       std::ranges::move(samples_of(piece->marking), std::back_inserter(samples));
-    if (!stations.empty() && !is_last && driven_m < stations.back().driven_m + kStation_m) continue;
-    stations.push_back({drive.poses[i], driven_m, std::exchange(samples, {})});
+    if (!stations.empty() && !is_last && driven_m[i] < stations.back().driven_m + kStation_m) continue;
+    stations.push_back({drive.poses[i], driven_m[i], std::exchange(samples, {})});
   }
   return stations;
 }

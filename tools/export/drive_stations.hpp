@@ -27,6 +27,9 @@ struct DriveStation {
 /// Places along a line, every 2 m.
 std::vector<DriveStation::Sample> samples_of(const Marking& line);
 
+/// The distance that a drive had driven at each of its poses.
+std::vector<double> driven_to(const DriveLines& drive);
+
 /// The stations of a drive, which has one pose or more: at its first pose, every kStation_m, and at its last.
 std::vector<DriveStation> stations_of(const DriveLines& drive);
 

@@ -55,13 +55,6 @@ DriveLines part_of(const DriveLines& drive, const std::vector<double>& driven_m,
   return part;
 }
 
-std::vector<double> driven_to(const DriveLines& drive) {
-  std::vector<double> driven_m(drive.poses.size(), 0.0);
-  for (std::size_t i = 1; i < drive.poses.size(); ++i)
-    driven_m[i] = driven_m[i - 1] + (drive.poses[i].translation() - drive.poses[i - 1].translation()).norm();
-  return driven_m;
-}
-
 /// Normal equations over the motions of all stations.
 class Equations {
  public:
@@ -100,6 +93,30 @@ class Equations {
   std::vector<Eigen::Triplet<double>> entries_;
   Eigen::VectorXd g_;
 };
+
+/// A drive that comes back to a place.
+struct Return {
+  std::size_t before = 0, now = 0;  ///< stations
+  Eigen::Isometry3d expected;       ///< leads from the frame of the poses now to that of the poses before
+  DriveLines lines;                 ///< of now, moved to where they are expected
+  LineArchive road;                 ///< of before
+};
+
+/// Lays the lines of now onto those of before. `stddev_m` is that of the place where they are expected.
+/// Empty: too few of them lie there.
+std::optional<Edge> laid(const Return& comes_back, double stddev_m) {
+  const auto end = end_on_road(comes_back.lines, comes_back.road, stddev_m);
+  if (!end) return std::nullopt;
+  DriveLines found = comes_back.lines;
+  move(end->T_road_drive, found);
+  if (met_share(found.pieces, comes_back.road) < kMet) return std::nullopt;
+  const Eigen::Matrix4d floor = kLaidStddev.cwiseAbs2().asDiagonal();
+  return Edge{.from = comes_back.before,
+              .to = comes_back.now,
+              .T_from_to = end->T_road_drive * comes_back.expected,
+              .information = (end->covariance + floor).inverse(),
+              .is_loop = true};
+}
 
 /// The pose graph of a drive.
 class Loops {
@@ -146,32 +163,28 @@ class Loops {
     for (std::size_t k = (stations_.size() - 1) % kStationsApart; k < stations_.size(); k += kStationsApart) {
       const auto before = visited_before(k);
       if (!before) continue;
-      auto edge = laid(*before, k, kExpected_m);
+      const Return comes_back = return_to(*before, k);
+      auto edge = laid(comes_back, kExpected_m);
       const bool is_expected = edge.has_value();
-      if (!is_expected) edge = laid(*before, k, kLost_m);
+      if (!is_expected) edge = laid(comes_back, kLost_m);
       if (edge) edges_.push_back(*edge);
       // Later places are expected by what was found.
       if (edge && !is_expected) relax();
     }
   }
 
-  std::optional<Edge> laid(std::size_t before, std::size_t k, double stddev_m) const {
+  Return return_to(std::size_t before, std::size_t k) const {
     const double before_m = stations_[before].driven_m, now_m = stations_[k].driven_m;
-    LineArchive road;
+    Return comes_back{.before = before,
+                      .now = k,
+                      .expected = T_road_drive_[before].inverse() * T_road_drive_[k],
+                      .lines = part_of(drive_, driven_m_, now_m - kLaid_m, now_m),
+                      .road = {}};
+    move(comes_back.expected, comes_back.lines);
     for (const ArchivedPiece& piece :
          part_of(drive_, driven_m_, before_m - kRoad_m, before_m + kRoad_m).pieces)
-      road.add(piece);
-    DriveLines now = part_of(drive_, driven_m_, now_m - kLaid_m, now_m);
-    const Eigen::Isometry3d expected = T_road_drive_[before].inverse() * T_road_drive_[k];
-    move(Isometries(now.poses.size(), expected), now);
-    const auto end = end_on_road(now, road, stddev_m);
-    if (!end || met_share(now.pieces, end->T_road_drive, road) < kMet) return std::nullopt;
-    const Eigen::Matrix4d floor = kLaidStddev.cwiseAbs2().asDiagonal();
-    return Edge{.from = before,
-                .to = k,
-                .T_from_to = end->T_road_drive * expected,
-                .information = (end->covariance + floor).inverse(),
-                .is_loop = true};
+      comes_back.road.add(piece);
+    return comes_back;
   }
 
   /// A step of Gauss-Newton over all stations.

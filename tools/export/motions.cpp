@@ -27,15 +27,14 @@ std::vector<Eigen::Isometry3d> between(const std::vector<DriveStation>& stations
                                        const std::vector<Eigen::Isometry3d>& T_road_drive,
                                        const DriveLines& drive) {
   std::vector<Eigen::Isometry3d> result;
-  double driven_m = 0.0;
+  const std::vector<double> driven_m = driven_to(drive);
   std::size_t k = 0;
   for (std::size_t i = 0; i < drive.poses.size(); ++i) {
-    if (i > 0) driven_m += (drive.poses[i].translation() - drive.poses[i - 1].translation()).norm();
-    while (k + 2 < stations.size() && stations[k + 1].driven_m < driven_m) ++k;
+    while (k + 2 < stations.size() && stations[k + 1].driven_m < driven_m[i]) ++k;
     const std::size_t next = std::min(k + 1, stations.size() - 1);
     const double length_m = stations[next].driven_m - stations[k].driven_m;
     const double share =
-        length_m > 0.0 ? std::clamp((driven_m - stations[k].driven_m) / length_m, 0.0, 1.0) : 0.0;
+        length_m > 0.0 ? std::clamp((driven_m[i] - stations[k].driven_m) / length_m, 0.0, 1.0) : 0.0;
     const Point about = T_road_drive[k] * Point(drive.poses[i].translation());
     result.push_back(
         moved(T_road_drive[k], share * motion(T_road_drive[k], T_road_drive[next], about), about));
@@ -47,6 +46,10 @@ void move(const std::vector<Eigen::Isometry3d>& T_road_drive, DriveLines& drive)
   for (ArchivedPiece& piece : drive.pieces)
     for (Point& point : piece.marking.points) point = T_road_drive[piece.pose] * point;
   for (std::size_t i = 0; i < drive.poses.size(); ++i) drive.poses[i] = T_road_drive[i] * drive.poses[i];
+}
+
+void move(const Eigen::Isometry3d& T_road_drive, DriveLines& drive) {
+  move(std::vector<Eigen::Isometry3d>(drive.poses.size(), T_road_drive), drive);
 }
 
 }  // namespace laneloom::exports

@@ -28,5 +28,7 @@ std::vector<Eigen::Isometry3d> between(const std::vector<DriveStation>& stations
 
 /// Moves the lines and the poses of a drive. `T_road_drive` is per pose.
 void move(const std::vector<Eigen::Isometry3d>& T_road_drive, DriveLines& drive);
+/// Likewise, all of a drive alike.
+void move(const Eigen::Isometry3d& T_road_drive, DriveLines& drive);
 
 }  // namespace laneloom::exports

@@ -49,7 +49,7 @@ Survey::Offset Survey::add(DriveLines drive) {
   Offset offset = offset_of(drive.poses, T_road_drive);
   offset.loops_m = loops_m;
   move(T_road_drive, drive);
-  offset.met_share = met_share(drive.pieces, Eigen::Isometry3d::Identity(), archive_);
+  offset.met_share = met_share(drive.pieces, archive_);
   std::uint64_t last_pass = 0;
   for (ArchivedPiece& piece : drive.pieces) {
     last_pass = piece.pass;
