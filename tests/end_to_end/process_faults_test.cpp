@@ -16,13 +16,13 @@
 namespace laneloom {
 namespace {
 
-/// Peak of a process's resident memory.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr double kMostMemory_mb = 1000.0;  // that of the sanitizer counts
 #else
 constexpr double kMostMemory_mb = 96.0;
 #endif
 
+/// Peak of a process's resident memory.
 double peak_memory_mb(const Process& process) {
   std::ifstream file("/proc/" + std::to_string(process.id()) + "/status");
   for (std::string line; std::getline(file, line);)
