@@ -35,7 +35,7 @@ struct Driven {
 /// The left and the right boundaries of lanes that were known before.
 using KnownBorders = std::set<std::array<ElementId, 2>>;
 
-/// What is known of a road before its lanes are looked for.
+/// The knowledge of a road before its lanes are looked for.
 struct KnownRoad {
   KnownBorders borders{};
   const SdMap* sd_map = nullptr;  ///< null: there is none

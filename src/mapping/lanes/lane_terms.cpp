@@ -65,8 +65,7 @@ constexpr double kEdgeOfLanes = -1.51;    // lines near an edge, which rather ha
 constexpr double kLeastWidth_m = 2.3, kMaxWidth_m = 4.5, kMaxKerbWidth_m = 6.5, kDividedFrom_m = 6.5;
 constexpr double kUsualFrom_m = 2.8, kUsualTo_m = 3.5;
 constexpr double kLeastSpan_m = 0.1;
-constexpr double kLeastEach_m = 2.2,
-                 kMostEach_m = 6.5;  // width of a street by the lanes that it is told to have
+constexpr double kLeastEach_m = 2.2, kMostEach_m = 6.5;  // of a street's lanes, as the SD map counts them
 
 constexpr double kAlongEdge_m = 1.2;                // distance of a line that is painted along an edge
 constexpr double kLeastWithin_m = 0.15;             // of an edge from a border
@@ -243,7 +242,7 @@ double of_shoulder(const Surroundings& around, double width_m, Room room, const 
   return sum;
 }
 
-/// What the SD map's number of lanes says, where the street is seen from edge to edge.
+/// The log odds by the SD map's number of lanes, where the street is seen from edge to edge.
 double of_street(const RoadCut& cut, const Candidate& candidate) {
   if (cut.street_lanes == 0) return 0.0;
   const auto is_edge = [](const Mark& mark) { return mark.is_edge && mark.log_odds > 0.0; };
