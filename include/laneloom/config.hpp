@@ -132,7 +132,14 @@ inline constexpr const char* kDrivingSides = "right|left|unknown";
 /// How the direction of traffic in a lane is found. Ours.
 struct DirectionConfig {
   DrivingSide driving_side = DrivingSide::right;  ///< tells in which of two lanes oncoming traffic runs
-  bool use_traffic = true;                        ///< whether trails of other vehicles tell directions
+};
+
+/// The kinds of evidence that count beside the detections. The map is the same as if what tells a kind that
+/// does not count had never come. Ours.
+struct EvidenceConfig {
+  bool traffic = true;   ///< the trails of other vehicles (Evidence::traffic)
+  bool sd_map = true;    ///< the streets of the SD map (Evidence::sd_map)
+  bool ego_path = true;  ///< where the vehicle drives (Evidence::ego_path)
 };
 
 /// Limits within which a stopline holds the traffic of a lane. Ours.
@@ -200,6 +207,7 @@ struct MapperConfig {
   LinkageConfig linkage;
   DirectionConfig direction;
   StoplineConfig stopline;
+  EvidenceConfig evidence;
   NetworkProfiles networks;  ///< content of fusion.profile_file; not part of the configuration's text
 };
 

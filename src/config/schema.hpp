@@ -265,12 +265,19 @@ void visit(auto& v, Is<LinkageConfig> auto& c) {
 }
 
 void visit(auto& v, Is<DirectionConfig> auto& c) {
-  auto& [driving_side, use_traffic] = c;
+  auto& [driving_side] = c;
   choice(v, "driving_side", driving_side, kDrivingSides, "The side of the road on which traffic keeps.");
+}
+
+void visit(auto& v, Is<EvidenceConfig> auto& c) {
+  auto& [traffic, sd_map, ego_path] = c;
+  v.flag("traffic", traffic,
+         "The trails of other vehicles (topic objects). Without them, a map with objects is the same as one "
+         "without.");
+  v.flag("sd_map", sd_map, "The streets of the SD map (sd_map.file).");
   v.flag(
-      "use_traffic", use_traffic,
-      "Take the trails of other vehicles (topic objects) as evidence of directions. Without it, a map with "
-      "objects is the same as one without.");
+      "ego_path", ego_path,
+      "Where the vehicle drives, and drove. Without it, no lane is surer because the vehicle drives in it.");
 }
 
 void visit(auto& v, Is<StoplineConfig> auto& c) {
@@ -284,7 +291,7 @@ void visit(auto& v, Is<StoplineConfig> auto& c) {
 
 void visit(auto& v, Is<MapperConfig> auto& c) {
   auto& [method, range, preprocess, voxel_map, clustering, polyline, fusion, style, boundary, section, lane,
-         linkage, direction, stopline, networks] = c;  // networks: of fusion.profile_file
+         linkage, direction, stopline, evidence, networks] = c;  // networks: of fusion.profile_file
   choice(v, "method", method, kFusionMethods,
          "How detections become markings. \"lines\" follows each line over time (section fusion). \"voxels\" "
          "is the paper's algorithm (sections voxel_map, clustering and polyline).");
@@ -311,6 +318,9 @@ void visit(auto& v, Is<MapperConfig> auto& c) {
   v.section("linkage", linkage, "Lanes to linkages (paper, Sec. III-D-4); the values are ours.");
   v.section("direction", direction, "The direction in which the traffic of a lane runs. Ours.");
   v.section("stopline", stopline, "The lanes whose traffic waits at a stopline. Ours.");
+  v.section("evidence", evidence,
+            "The kinds of evidence that count beside the detections. The map is the same as if what tells a "
+            "kind that does not count had never come. Ours.");
 }
 
 void visit(auto& v, Is<SyncConfig> auto& c) {

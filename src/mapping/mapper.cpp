@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "laneloom/reasons.hpp"
@@ -37,14 +38,14 @@ namespace {
 /// The scene of the next map. A frame may come after newer ones of another source: it is fused as it was
 /// seen, into the present map. The way of the vehicle leads on to there.
 geometry::Scene next_scene(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
-                           const RangeConfig& range, MapperState& state) {
+                           const MapperConfig& config, MapperState& state) {
   const bool newest = frame.stamp_ns >= state.map.stamp_ns;
-  const geometry::MapBox box(range, newest ? T_map_body : state.map.T_map_body);
+  const geometry::MapBox box(config.range, newest ? T_map_body : state.map.T_map_body);
   state.drive_through(box.T_map_body().translation());
   return {.box = box,
           .stamp_ns = newest ? frame.stamp_ns : state.map.stamp_ns,
           .frame = ++state.frame,
-          .driven = state.driven};
+          .driven = std::span(state.driven).first(config.evidence.ego_path ? state.driven.size() : 0)};
 }
 
 /// The parts of a mapper that stay the same for every frame.
@@ -66,9 +67,9 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
   boundaries::SectionGraph sections =
       log.done(Stage::road_sections,
                road_sections(std::move(boundaries), scene.T_map_body(), config.section));  // III-D-2
-  const Eigen::Isometry3d T_map_body = scene.T_map_body();
+  const std::size_t poses = config.evidence.ego_path ? 1 : 0;
   lanes::LaneLayout found = state.inferred.recognise(
-      lanes::find_lanes(std::move(sections), scene.box, {{&T_map_body, 1}, scene.driven},
+      lanes::find_lanes(std::move(sections), scene.box, {{&scene.T_map_body(), poses}, scene.driven},
                         {state.lane_tracks.known_borders(), &setup.sd_map}, config.lane),
       scene, config.lane, state.ids);  // III-D-3
   return log.done(Stage::lanes,
@@ -186,7 +187,9 @@ const char* name(Stage stage) {
 }
 
 Mapper::Mapper(const MapperConfig& config, SdMap sd_map)
-    : config_(config), sd_map_(std::move(sd_map)), state_(std::make_unique<MapperState>(config)) {
+    : config_(config),
+      sd_map_(config.evidence.sd_map ? std::move(sd_map) : SdMap()),
+      state_(std::make_unique<MapperState>(config)) {
   lines::check_profiles(config_);
 }
 Mapper::~Mapper() = default;
@@ -208,7 +211,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
     see_again(frame, seen_from, sd_map_, log, state);
     return state.map;
   }
-  const geometry::Scene scene = next_scene(frame, seen_from, config_.range, state);
+  const geometry::Scene scene = next_scene(frame, seen_from, config_, state);
   state.trails.keep_around(scene.T_map_body().translation());
   markings::FusedMarkings fused =
       state.fusion.update(std::move(observed), scene, config_, state.ids, log);  // III-B and III-C
@@ -217,14 +220,14 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   lanes::LaneLayout layout = lanes_of(fused, scene, {config_, sd_map_}, log, state);
   topology::RoadGraph road =
       topology::link_lanes(std::move(layout), config_.linkage);  // III-D-4; from here on ours
-  topology::observe_directions(road.lanes, scene.T_map_body(), fused.markings, config_.stopline,
-                               state.lane_tracks);
+  if (config_.evidence.ego_path) topology::observe_drive(road.lanes, scene.T_map_body(), state.lane_tracks);
+  topology::observe_stoplines(road.lanes, fused.markings, config_.stopline, state.lane_tracks);
   DirectionConfig direction = config_.direction;
   const topology::RoadTraffic traffic = observed_traffic(road, scene, sd_map_, state, direction);
   topology::find_directions(direction, traffic, state.lane_tracks, road, log.reasons());
   link_across_intersections(sd_map_, config_.linkage, road);
   link_traffic(state.trails.all(), traffic.driven, road);
-  link_ego_track(scene.T_map_body(), state.ego_track, road);
+  if (config_.evidence.ego_path) link_ego_track(scene.T_map_body(), state.ego_track, road);
   name_lanes(log.reasons(), state, road);
   meet_at_joints(road);
   std::vector<DrivenPath> paths = paths_beside(road, traffic.driven, scene, config_.lane, state);
@@ -252,7 +255,7 @@ Eigen::Isometry3d Mapper::follow_poses(const DetectionFrame& frame, const Eigen:
 }
 
 void Mapper::add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body) {
-  if (config_.direction.use_traffic) state_->trails.add(in_body_frame(objects, T_map_body), T_map_body);
+  if (config_.evidence.traffic) state_->trails.add(in_body_frame(objects, T_map_body), T_map_body);
 }
 
 void Mapper::add(const NextTurn& turn, const Eigen::Isometry3d& T_map_body) {

@@ -39,8 +39,10 @@ boundaries::Boundaries boundaries_of(const SurveyedRoad& surveyed, BoundaryConfi
 
 void link(const SurveyedRoad& surveyed, const MapperConfig& config, lanes::LaneTracks& tracks,
           topology::RoadGraph& road) {
-  for (const Eigen::Isometry3d& pose : surveyed.poses)
-    topology::observe_directions(road.lanes, pose, surveyed.markings, config.stopline, tracks);
+  for (const Eigen::Isometry3d& pose : surveyed.poses) {
+    topology::observe_drive(road.lanes, pose, tracks);
+    topology::observe_stoplines(road.lanes, surveyed.markings, config.stopline, tracks);
+  }
   find_directions(config.direction, {side_by_side(road), {}}, tracks, road);
   link_across_intersections(SdMap{}, config.linkage, road);
   topology::EgoTrack track;

@@ -24,6 +24,8 @@ constexpr double kGrowth = 0.3;      // likewise, where the frame says more than
 constexpr double kDoubted = 0.5;     // below, a direction is published no longer
 constexpr double kRemembered = 0.5;  // of a belief, beyond what the frame says
 
+double limited(double log_odds) { return std::clamp(log_odds, -kMaxObserved, kMaxObserved); }
+
 /// The end of a lane at which stoplines lie. 1: its end; -1: its start; 0: neither or both.
 double stopline_sense(const Lane& lane, const std::vector<Marking>& markings, const StoplineConfig& config) {
   double sense = 0.0;
@@ -128,9 +130,8 @@ void explain(const DirectionModel& model, std::size_t group, double sense, const
 
 }  // namespace
 
-void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
-                        const std::vector<Marking>& markings, const StoplineConfig& config,
-                        lanes::LaneTracks& tracks) {
+void observe_drive(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
+                   lanes::LaneTracks& tracks) {
   std::vector<double> senses;  // in which the vehicle drives in each lane
   senses.reserve(lanes.size());
   for (const Lane& lane : lanes) senses.push_back(lanes::ego_sense(lane, T_map_body, kCosInLane));
@@ -144,9 +145,18 @@ void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d&
     if (driven < lanes.size() && lanes::are_neighbours(lanes[driven], lane)) log_odds *= kMemory;
     const double sense = senses[i];
     remembered->driven = remembered->driven || sense != 0.0;
-    if (sense != 0.0 && !may_drive_beyond(lane, T_map_body)) log_odds += kEgoEvidence * sense;
-    log_odds += kStoplineEvidence * stopline_sense(lane, markings, config);
-    log_odds = std::clamp(log_odds, -kMaxObserved, kMaxObserved);
+    if (sense != 0.0 && !may_drive_beyond(lane, T_map_body))
+      log_odds = limited(log_odds + kEgoEvidence * sense);
+  }
+}
+
+void observe_stoplines(const std::vector<Lane>& lanes, const std::vector<Marking>& markings,
+                       const StoplineConfig& config, lanes::LaneTracks& tracks) {
+  for (const Lane& lane : lanes) {
+    lanes::LaneTrack* remembered = tracks.find(lane.id);
+    if (remembered == nullptr) continue;
+    double& log_odds = remembered->direction_log_odds;
+    log_odds = limited(log_odds + kStoplineEvidence * stopline_sense(lane, markings, config));
   }
 }
 

@@ -11,12 +11,15 @@
 
 namespace laneloom::topology {
 
-/// Adds evidence of the traffic's direction to the remembered lanes: the vehicle drives in a lane, or a
-/// stopline lies across one of its ends. Evidence adds up over frames, to a limit. It fades while the vehicle
-/// drives beside the lane. Remembers which lanes the vehicle drove in.
-void observe_directions(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
-                        const std::vector<Marking>& markings, const StoplineConfig& config,
-                        lanes::LaneTracks& tracks);
+/// Adds evidence of the traffic's direction to the remembered lanes: the vehicle drives in a lane. Evidence
+/// adds up over frames, to a limit. It fades while the vehicle drives beside the lane. Remembers which lanes
+/// the vehicle drove in.
+void observe_drive(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
+                   lanes::LaneTracks& tracks);
+
+/// Likewise: a stopline lies across one end of a lane.
+void observe_stoplines(const std::vector<Lane>& lanes, const std::vector<Marking>& markings,
+                       const StoplineConfig& config, lanes::LaneTracks& tracks);
 
 /// Sets the driving direction of every lane for which it can be told, and turns the lane to run with the
 /// traffic. Ours, beyond the paper.

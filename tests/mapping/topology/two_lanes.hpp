@@ -66,7 +66,8 @@ class Directions : public ::testing::Test {
     for (const Lane& lane : lanes_)
       if (tracks_.find(lane.id) == nullptr) known.push_back({.id = lane.id});
     tracks_ = lanes::LaneTracks(std::move(known));
-    observe_directions(lanes_, T_map_body, markings, {}, tracks_);
+    observe_drive(lanes_, T_map_body, tracks_);
+    observe_stoplines(lanes_, markings, {}, tracks_);
   }
 
   void find(DrivingSide driving_side = DrivingSide::right) {
