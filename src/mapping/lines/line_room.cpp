@@ -11,7 +11,7 @@ namespace laneloom::lines {
 namespace {
 
 constexpr std::size_t kMostLines = 256, kMostStations = 20000;
-constexpr std::size_t kMostInPlace = 8;  // lines in a square metre
+constexpr std::size_t kMostInPlace = 4;  // lines in a square metre
 
 /// A line in a square metre that it passes, seen from above: the place in the upper bits, then the rank of
 /// the line. Ranks begin with the line that is believed most. Places 16 000 km apart are not told apart.

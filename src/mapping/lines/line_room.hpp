@@ -8,9 +8,9 @@
 namespace laneloom::lines {
 
 /// Forgets lines that there is no room for, so that a flood of false detections does not make frames slow.
-/// There is room for 256 lines with 20000 stations together, and for eight lines in a square metre, which is
-/// more than a road has. The lines that are believed most stay, and of equals the first ones. Returns how
-/// many are forgotten.
+/// There is room for 256 lines with 20000 stations together, and for four lines in a square metre: a double
+/// line, a kerb and a stopline. The lines that are believed most stay, and of equals the first ones. Returns
+/// how many are forgotten.
 std::size_t keep_within_room(std::vector<Line>& lines);
 
 }  // namespace laneloom::lines
