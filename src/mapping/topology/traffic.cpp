@@ -23,7 +23,7 @@ constexpr double kStraight_m = 15.0;                        // that either has d
 constexpr double kCosStraight = 0.985;                      // 10 degrees
 constexpr double kMoving_m = 0.1;                           // of the vehicle, since the frame before
 
-constexpr int kBelieved = 3;  // trails that must tell the driving side
+constexpr int kBelieved = 2;  // trails that must tell the driving side
 constexpr int kMaxTold = 4;   // trails that are remembered, so that a country's border is noticed
 
 /// The lane that a vehicle drives in at a place. `along` is positive if it drives along the lane's points.

@@ -56,7 +56,7 @@ class ObservedSide {
   /// drive on another road. `before` is the place of the own vehicle in the frame before, map frame.
   void observe_passing(const Point& before, const Eigen::Isometry3d& T_map_body,
                        const lanes::LaneLayout& layout, std::vector<trails::Trail>& trails);
-  /// Whether traffic keeps to the other side than `driving_side`. Three vehicles more have told so than have
+  /// Whether traffic keeps to the other side than `driving_side`. Two vehicles more have told so than have
   /// told the contrary, and since then not as many have told the contrary.
   bool contradicts(DrivingSide driving_side) const;
   /// The side on which traffic keeps: the other one where it contradicts `driving_side`.

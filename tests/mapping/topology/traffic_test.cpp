@@ -115,8 +115,8 @@ TEST_F(Side, TrafficThatMeetsOnTheLeftContradictsNoRightHandTraffic) {
   EXPECT_FALSE(side_.contradicts(DrivingSide::unknown));
 }
 
-TEST_F(Side, TwoVehiclesContradictNothing) {
-  meet(2);
+TEST_F(Side, OneVehicleContradictsNothing) {
+  meet(1);
   EXPECT_FALSE(side_.contradicts(DrivingSide::left));
   meet(1);
   EXPECT_TRUE(side_.contradicts(DrivingSide::left));
@@ -194,8 +194,8 @@ class Passing : public ::testing::Test {
 };
 
 TEST_F(Passing, OnTheRightTellsLeftHandTraffic) {
-  meet(2, -3.5);
-  EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right) << "two vehicles, each of which tells it once";
+  meet(1, -3.5);
+  EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::right) << "a vehicle tells it once";
   meet(1, -6.0);
   EXPECT_EQ(told_for(DrivingSide::right), DrivingSide::left);
   EXPECT_EQ(told_for(DrivingSide::left), DrivingSide::left);
