@@ -5,7 +5,6 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "laneloom/reasons.hpp"
@@ -42,10 +41,10 @@ geometry::Scene next_scene(const DetectionFrame& frame, const Eigen::Isometry3d&
   const bool newest = frame.stamp_ns >= state.map.stamp_ns;
   const geometry::MapBox box(config.range, newest ? T_map_body : state.map.T_map_body);
   state.drive_through(box.T_map_body().translation());
-  return {.box = box,
-          .stamp_ns = newest ? frame.stamp_ns : state.map.stamp_ns,
-          .frame = ++state.frame,
-          .driven = std::span(state.driven).first(config.evidence.ego_path ? state.driven.size() : 0)};
+  geometry::Scene scene{
+      .box = box, .stamp_ns = newest ? frame.stamp_ns : state.map.stamp_ns, .frame = ++state.frame};
+  if (config.evidence.ego_path) scene.driven = state.driven;
+  return scene;
 }
 
 /// The parts of a mapper that stay the same for every frame.
@@ -67,9 +66,10 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
   boundaries::SectionGraph sections =
       log.done(Stage::road_sections,
                road_sections(std::move(boundaries), scene.T_map_body(), config.section));  // III-D-2
-  const std::size_t poses = config.evidence.ego_path ? 1 : 0;
+  lanes::Driven driven;
+  if (config.evidence.ego_path) driven = {{&scene.T_map_body(), 1}, scene.driven};
   lanes::LaneLayout found = state.inferred.recognise(
-      lanes::find_lanes(std::move(sections), scene.box, {{&scene.T_map_body(), poses}, scene.driven},
+      lanes::find_lanes(std::move(sections), scene.box, driven,
                         {state.lane_tracks.known_borders(), &setup.sd_map}, config.lane),
       scene, config.lane, state.ids);  // III-D-3
   return log.done(Stage::lanes,
