@@ -134,12 +134,12 @@ struct DirectionConfig {
   DrivingSide driving_side = DrivingSide::right;  ///< tells in which of two lanes oncoming traffic runs
 };
 
-/// The kinds of evidence that count beside the detections. The map is the same as if what tells a kind that
-/// does not count had never come. Ours.
+/// The kinds of evidence that count beside the detections. A kind that does not count leaves the map as if
+/// its source had never told anything. Ours.
 struct EvidenceConfig {
   bool traffic = true;   ///< the trails of other vehicles (Evidence::traffic)
   bool sd_map = true;    ///< the streets of the SD map (Evidence::sd_map)
-  bool ego_path = true;  ///< where the vehicle drives (Evidence::ego_path)
+  bool ego_path = true;  ///< the vehicle's own drive (Evidence::ego_path)
 };
 
 /// Limits within which a stopline holds the traffic of a lane. Ours.

@@ -277,7 +277,7 @@ void visit(auto& v, Is<EvidenceConfig> auto& c) {
   v.flag("sd_map", sd_map, "The streets of the SD map (sd_map.file).");
   v.flag(
       "ego_path", ego_path,
-      "Where the vehicle drives, and drove. Without it, no lane is surer because the vehicle drives in it.");
+      "The vehicle's own drive. Without it, no lane is surer because the vehicle drives in it.");
 }
 
 void visit(auto& v, Is<StoplineConfig> auto& c) {
@@ -319,8 +319,8 @@ void visit(auto& v, Is<MapperConfig> auto& c) {
   v.section("direction", direction, "The direction in which the traffic of a lane runs. Ours.");
   v.section("stopline", stopline, "The lanes whose traffic waits at a stopline. Ours.");
   v.section("evidence", evidence,
-            "The kinds of evidence that count beside the detections. The map is the same as if what tells a "
-            "kind that does not count had never come. Ours.");
+            "The kinds of evidence that count beside the detections. A kind that does not count leaves the map "
+            "as if its source had never told anything. Ours.");
 }
 
 void visit(auto& v, Is<SyncConfig> auto& c) {
