@@ -66,8 +66,8 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
   boundaries::SectionGraph sections =
       log.done(Stage::road_sections,
                road_sections(std::move(boundaries), scene.T_map_body(), config.section));  // III-D-2
-  lanes::Driven driven;
-  if (config.evidence.ego_path) driven = {{&scene.T_map_body(), 1}, scene.driven};
+  lanes::Driven driven{.way = scene.driven};
+  if (config.evidence.ego_path) driven.poses = {&scene.T_map_body(), 1};
   lanes::LaneLayout found = state.inferred.recognise(
       lanes::find_lanes(std::move(sections), scene.box, driven,
                         {state.lane_tracks.known_borders(), &setup.sd_map}, config.lane),

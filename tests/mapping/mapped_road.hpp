@@ -40,7 +40,8 @@ inline MapperConfig with_method(const std::string& method) {
 
 class Drive {
  public:
-  explicit Drive(const std::string& method = "lines") : mapper(with_method(method)) {}
+  explicit Drive(const std::string& method = "lines") : Drive(with_method(method)) {}
+  explicit Drive(const MapperConfig& config, SdMap sd_map = {}) : mapper(config, std::move(sd_map)) {}
   const LocalMap& step(const std::vector<Detection>& detections = road(), StageObserver* observer = nullptr) {
     x += kStep_m;
     return mapper.update(frame_at(x, detections, ++number), at(x), observer);

@@ -1,81 +1,74 @@
 #include <gtest/gtest.h>
 
-#include <string>
-#include <utility>
-
 #include "mapping/mapped_road.hpp"
 
 namespace laneloom {
 namespace {
 
-/// What comes beside the detections.
+using test::Drive;
+
+/// The inputs that a drive has beside its detections.
 struct Given {
   bool traffic = true, sd_map = true;
 };
 
-/// A vehicle drives along the road, in a one-way street of the SD map; others come against it on its left.
-class MaskedDrive {
- public:
-  MaskedDrive(const EvidenceConfig& evidence, Given given) : mapper_(config(evidence), sd_map(given)) {
-    for (int i = 1; i <= 60; ++i) {
-      const double x = i * test::kStep_m;
-      if (given.traffic) mapper_.add(oncoming(x, i), test::at(x));
-      mapper_.update(test::frame_at(x, test::road(), i), test::at(x));
-    }
-  }
+/// A one-way street along the road.
+SdMap one_way_street() {
+  return SdMap({{.id = 1, .nodes = {1, 2}, .points = {{-100, -1.8}, {400, -1.8}}, .oneway = true}}, {});
+}
 
-  const LocalMap& map() const { return mapper_.map(); }
-  std::string bytes() const { return mapper_.save(); }
+/// A car that comes towards the vehicle in the left lane, at the next frame of a drive.
+TrackedObjects oncoming(const Drive& drive) {
+  const int number = drive.number + 1;
+  return {.stamp_ns = number * 100'000'000LL,
+          .objects = {{.id = 1,
+                       .kind = ObjectKind::car,
+                       .position = {60.0 - 2.0 * number * test::kStep_m, 1.9, 0.0},
+                       .heading = {-1.0, 0.0, 0.0},
+                       .speed_mps = 10.0}}};
+}
 
-  /// Everything on which something of the map rests.
-  Evidence all_evidence() const {
-    Evidence all = Evidence::none;
-    for (const Lane& lane : map().lanes) all |= lane.evidence | lane.direction_evidence;
-    for (const Linkage& linkage : map().linkages) all |= linkage.evidence;
-    return all;
+Drive masked_drive(const EvidenceConfig& evidence, Given given) {
+  MapperConfig config;
+  config.evidence = evidence;
+  Drive drive(config, given.sd_map ? one_way_street() : SdMap());
+  for (int i = 0; i < 60; ++i) {
+    if (given.traffic) drive.mapper.add(oncoming(drive), test::at(drive.x + test::kStep_m));
+    drive.step();
   }
+  return drive;
+}
 
- private:
-  static MapperConfig config(const EvidenceConfig& evidence) {
-    MapperConfig config;
-    config.evidence = evidence;
-    return config;
-  }
-  static SdMap sd_map(Given given) {
-    if (!given.sd_map) return {};
-    return SdMap({{.id = 1, .nodes = {1, 2}, .points = {{-100, -1.8}, {400, -1.8}}, .oneway = true}}, {});
-  }
-  static TrackedObjects oncoming(double x, int number) {
-    const double met_m = 60.0 - 2.0 * x;  // ahead of the vehicle
-    return {.stamp_ns = number * 100'000'000LL,
-            .objects = {{.id = 1,
-                         .kind = ObjectKind::car,
-                         .position = {met_m, 1.9, 0.0},
-                         .heading = {-1.0, 0.0, 0.0},
-                         .speed_mps = 10.0}}};
-  }
-
-  Mapper mapper_;
-};
+/// Everything on which something of a drive's map rests.
+Evidence all_evidence(const Drive& drive) {
+  const LocalMap& map = drive.mapper.map();
+  Evidence all = Evidence::none;
+  for (const Lane& lane : map.lanes) all |= lane.evidence | lane.direction_evidence;
+  for (const Linkage& linkage : map.linkages) all |= linkage.evidence;
+  return all;
+}
 
 TEST(MaskedEvidence, EachKindTellsSomethingUnlessItIsMasked) {
-  const Evidence all = MaskedDrive({}, {}).all_evidence();
+  const Evidence all = all_evidence(masked_drive({}, {}));
   for (const Evidence kind : {Evidence::traffic, Evidence::sd_map, Evidence::ego_path})
     EXPECT_TRUE(overlap(all, kind)) << static_cast<int>(kind);
-  EXPECT_FALSE(overlap(MaskedDrive({.traffic = false}, {}).all_evidence(), Evidence::traffic));
-  EXPECT_FALSE(overlap(MaskedDrive({.sd_map = false}, {}).all_evidence(), Evidence::sd_map));
-  EXPECT_FALSE(overlap(MaskedDrive({.ego_path = false}, {}).all_evidence(), Evidence::ego_path));
+  EXPECT_FALSE(overlap(all_evidence(masked_drive({.traffic = false}, {})), Evidence::traffic));
+  EXPECT_FALSE(overlap(all_evidence(masked_drive({.sd_map = false}, {})), Evidence::sd_map));
+  EXPECT_FALSE(overlap(all_evidence(masked_drive({.ego_path = false}, {})), Evidence::ego_path));
 }
 
 TEST(MaskedEvidence, AMaskedKindIsAsIfItHadNeverCome) {
-  EXPECT_EQ(MaskedDrive({.traffic = false}, {}).bytes(), MaskedDrive({}, {.traffic = false}).bytes());
-  EXPECT_EQ(MaskedDrive({.sd_map = false}, {}).bytes(), MaskedDrive({}, {.sd_map = false}).bytes());
+  const auto saved = [](const EvidenceConfig& evidence, Given given) {
+    return masked_drive(evidence, given).mapper.save();
+  };
+  EXPECT_EQ(saved({.traffic = false}, {}), saved({}, {.traffic = false}));
+  EXPECT_EQ(saved({.sd_map = false}, {}), saved({}, {.sd_map = false}));
 }
 
 TEST(MaskedEvidence, WithoutTheOwnDriveARoadStillHasItsLanes) {
-  const MaskedDrive drive({.ego_path = false}, {.traffic = false, .sd_map = false});
-  EXPECT_EQ(drive.map().lanes.size(), 2U);
-  EXPECT_TRUE(drive.map().way.has_value());
+  const Drive drive = masked_drive({.ego_path = false}, {.traffic = false, .sd_map = false});
+  EXPECT_EQ(drive.mapper.map().lanes.size(), 2U);
+  EXPECT_TRUE(drive.mapper.map().way.has_value());
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace laneloom::topology {
 void observe_drive(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_map_body,
                    lanes::LaneTracks& tracks);
 
-/// Likewise: a stopline lies across one end of a lane.
+/// Adds the evidence of stoplines likewise: one lies across one end of a lane.
 void observe_stoplines(const std::vector<Lane>& lanes, const std::vector<Marking>& markings,
                        const StoplineConfig& config, lanes::LaneTracks& tracks);
 
