@@ -275,9 +275,8 @@ void visit(auto& v, Is<EvidenceConfig> auto& c) {
          "The trails of other vehicles (topic objects). Without them, a map with objects is the same as one "
          "without.");
   v.flag("sd_map", sd_map, "The streets of the SD map (sd_map.file).");
-  v.flag(
-      "ego_path", ego_path,
-      "The vehicle's own drive. Without it, no lane is surer because the vehicle drives in it.");
+  v.flag("ego_path", ego_path,
+         "The vehicle's own drive. Without it, no lane is surer because the vehicle drives in it.");
 }
 
 void visit(auto& v, Is<StoplineConfig> auto& c) {
@@ -318,9 +317,10 @@ void visit(auto& v, Is<MapperConfig> auto& c) {
   v.section("linkage", linkage, "Lanes to linkages (paper, Sec. III-D-4); the values are ours.");
   v.section("direction", direction, "The direction in which the traffic of a lane runs. Ours.");
   v.section("stopline", stopline, "The lanes whose traffic waits at a stopline. Ours.");
-  v.section("evidence", evidence,
-            "The kinds of evidence that count beside the detections. A kind that does not count leaves the map "
-            "as if its source had never told anything. Ours.");
+  v.section(
+      "evidence", evidence,
+      "The kinds of evidence that count beside the detections. A kind that does not count leaves the map "
+      "as if its source had never told anything. Ours.");
 }
 
 void visit(auto& v, Is<SyncConfig> auto& c) {
