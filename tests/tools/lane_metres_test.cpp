@@ -65,8 +65,16 @@ TEST(LaneMetres, OfATruthWithoutBordersAreRightOrElsewhere) {
   EXPECT_GT(meter.metres().of(LaneClass::right), 19.0);
 }
 
-TEST(LaneMetres, ShouldersDoNotCount) {
-  EXPECT_EQ(metres_of(4.0, Lane::Direction::unknown, Lane::Use::shoulder).published_m(), 0.0);
+TEST(LaneMetres, ShouldersAreApart) {
+  const auto shoulder_at = [](double y_m) {
+    return metres_of(y_m, Lane::Direction::unknown, Lane::Use::shoulder);
+  };
+  const LaneMetres beside = shoulder_at(4.0), within = shoulder_at(2.2);
+  EXPECT_EQ(beside.published_m(), 0.0);
+  EXPECT_NEAR(beside.shoulder_m, 20.0, 0.5);
+  EXPECT_EQ(beside.shoulder_outside_m, beside.shoulder_m);
+  EXPECT_NEAR(within.shoulder_m, 20.0, 0.5);
+  EXPECT_EQ(within.shoulder_outside_m, 0.0);
 }
 
 TEST(LaneMetres, DirectionsAreRatedWhereTheLaneIsRight) {

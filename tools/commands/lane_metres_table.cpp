@@ -40,6 +40,9 @@ std::string lane_metres_table(const LaneMetres& metres) {
   const double right_m = metres.of(LaneClass::right);
   table += percent_row("directions, of right metres: told", metres.told_m, right_m) +
            percent_row("  told rightly, of those told", metres.told_right_m, metres.told_m);
+  if (metres.shoulder_m > 0.0)
+    table += fmt::format("Shoulders, % of {:.0f} m\n", metres.shoulder_m) +
+             percent_row("in no lane", metres.shoulder_outside_m, metres.shoulder_m);
   if (metres.driven_m == 0.0) return table;
   return table + fmt::format("Driven paths, % of {:.0f} m\n", metres.driven_m) +
          percent_row("less than 0.9 m from the middle of a lane", metres.driven_near_m, metres.driven_m) +
@@ -53,6 +56,9 @@ nlohmann::json lane_metres_json(const LaneMetres& metres) {
                       {"directions",
                        {{"precision", null_or(share(metres.told_right_m, metres.told_m))},
                         {"recall", null_or(share(metres.told_right_m, right_m))}}}};
+  if (metres.shoulder_m > 0.0)
+    json["shoulders"] = {{"metres", metres.shoulder_m},
+                         {"outside_lanes", null_or(share(metres.shoulder_outside_m, metres.shoulder_m))}};
   if (metres.driven_m > 0.0)
     json["driven_paths"] = {{"metres", metres.driven_m},
                             {"near", null_or(share(metres.driven_near_m, metres.driven_m))},

@@ -35,6 +35,8 @@ LaneMetres& LaneMetres::operator+=(const LaneMetres& other) {
   for (std::size_t i = 0; i < kLaneClassCount; ++i) by_class_m[i] += other.by_class_m[i];
   told_m += other.told_m;
   told_right_m += other.told_right_m;
+  shoulder_m += other.shoulder_m;
+  shoulder_outside_m += other.shoulder_outside_m;
   driven_m += other.driven_m;
   driven_near_m += other.driven_near_m;
   driven_there_m += other.driven_there_m;
@@ -91,6 +93,16 @@ void LaneMetresMeter::add_sample(const Point& point, const Eigen::Vector2d& dire
   if (runs_with_traffic) metres_.told_right_m += kStep_m;
 }
 
+void LaneMetresMeter::add_shoulder(const Point& point) {
+  bool in_lane = false;
+  truth_.around(point, kBesideEdge_m, [&](const Sample& sample) {
+    in_lane |= sample.of == Of::lane && geometry::same_level(sample.position, point) &&
+               (sample.position - point).head<2>().norm() <= sample.half_width_m;
+  });
+  metres_.shoulder_m += kStep_m;
+  if (!in_lane) metres_.shoulder_outside_m += kStep_m;
+}
+
 void LaneMetresMeter::add_driven(const Point& point, const Eigen::Vector2d& direction, double probability) {
   double nearest_m = std::numeric_limits<double>::infinity();
   truth_.around(point, kThere_m, [&](const Sample& sample) {
@@ -107,11 +119,15 @@ void LaneMetresMeter::add_driven(const Point& point, const Eigen::Vector2d& dire
 void LaneMetresMeter::add(const LocalMap& map) {
   const Eigen::Isometry3d T_body_map = map.T_map_body.inverse();
   for (const Lane& lane : map.lanes) {
-    if (!lane.is_drivable()) continue;
     const MeasuredPolyline line(lane.centerline);
-    for (double arc_m = 0.5 * kStep_m; arc_m < line.length(); arc_m += kStep_m)
-      if (in_range(T_body_map * line.at(arc_m), range_))
-        add_sample(line.at(arc_m), line.direction(arc_m), lane.direction);
+    for (double arc_m = 0.5 * kStep_m; arc_m < line.length(); arc_m += kStep_m) {
+      const Point point = line.at(arc_m);
+      if (!in_range(T_body_map * point, range_)) continue;
+      if (lane.is_drivable())
+        add_sample(point, line.direction(arc_m), lane.direction);
+      else
+        add_shoulder(point);
+    }
   }
   for (const DrivenPath& path : map.driven_paths) {
     const MeasuredPolyline line(path.points);

@@ -19,6 +19,8 @@
 /// Directions: of the right samples, those whose lane tells its direction, and those of them that run with
 /// the traffic of a truth lane there. A lane that is driven both ways runs with any.
 ///
+/// Shoulders: their samples likewise, and those in no truth lane.
+///
 /// Driven paths: their samples likewise, and those less than 0.9 m and 1.5 m from the middle of a truth lane
 /// whose traffic runs that way (at less than 45 degrees).
 namespace laneloom::evaluation {
@@ -31,6 +33,8 @@ struct LaneMetres {
   std::array<double, kLaneClassCount> by_class_m{};
   double told_m = 0.0;                               ///< part of the right metres that tells a direction
   double told_right_m = 0.0;                         ///< part of these that runs with the traffic
+  double shoulder_m = 0.0;                           ///< of shoulders and parking strips
+  double shoulder_outside_m = 0.0;                   ///< part of these in no truth lane
   double driven_m = 0.0;                             ///< of driven paths
   double driven_near_m = 0.0, driven_there_m = 0.0;  ///< parts of these less than 0.9 m and 1.5 m aside
   double driven_belief_m = 0.0;  ///< as many of them should be there, by their probabilities
@@ -57,6 +61,7 @@ class LaneMetresMeter {
   };
   static void sample(const Polyline& line, Of of, double width_m, std::vector<Sample>& samples);
   void add_sample(const Point& point, const Eigen::Vector2d& direction, Lane::Direction told);
+  void add_shoulder(const Point& point);
   void add_driven(const Point& point, const Eigen::Vector2d& direction, double probability);
 
   RangeConfig range_;
