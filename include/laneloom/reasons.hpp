@@ -70,7 +70,7 @@ struct LaneReason {
   std::size_t observed = 0;  ///< known before
   std::size_t found = 0;     ///< the frame shows the lane there
   std::size_t denied = 0;    ///< the frame shows its borders, and no lane between them
-  std::size_t taken = 0;     ///< the frame shows another lane there
+  std::size_t taken = 0;     ///< the frame shows another lane there, or a shoulder
   // Then of those after the frame.
   std::size_t places = 0;  ///< all
   std::size_t shown = 0;   ///< in the map

@@ -106,6 +106,15 @@ TEST(RoadKinds, AStreetHasTwoLanesWhereverTheVehicleDrives) {
     }
 }
 
+TEST(RoadKinds, ANarrowRoadBetweenKerbsHasTwoLanesBesideASolidLine) {
+  for (double width_m = 2.5; width_m < 3.5; width_m += 0.1) {
+    SCOPED_TRACE(width_m);
+    const LocalMap map = driven({{kEdge, 1.5 * width_m}, {.left_m = 0.5 * width_m}, {kEdge, -0.5 * width_m}});
+    EXPECT_THAT(map.lanes, SizeIs(2));
+    EXPECT_NE(lane_at(map, width_m), nullptr) << "the oncoming one";
+  }
+}
+
 TEST(RoadKinds, WhereTheLineInTheMiddleEndsBothLanesGoOn) {
   for (const double width_m : {6.4, 6.6, 7.0, 7.5})
     for (const MarkingType right : {MarkingType::laneline, kEdge}) {

@@ -88,7 +88,7 @@ std::string frame_of(const LaneReason& lane) {
   std::vector<std::string> said;
   for (const auto& [places, what] :
        {std::pair(lane.found, "the lane"), std::pair(lane.denied, "its borders without a lane"),
-        std::pair(lane.taken, "another lane"),
+        std::pair(lane.taken, "another lane or a shoulder"),
         std::pair(lane.observed - lane.found - lane.denied - lane.taken, "nothing")})
     if (places > 0) said.push_back(fmt::format("{} at {}", what, places));
   return fmt::format("This frame added {:+.2f}: of {} places known before, it showed {}.", lane.gained,

@@ -21,6 +21,7 @@ struct Hypothesis {
   std::size_t first = 0;           ///< cross-section with which it begins
   std::vector<std::size_t> marks;  ///< per cross-section, the mark of `other`
   std::vector<double> log_odds;    ///< per cross-section, that the lane is there
+  std::vector<double> shoulder_log_odds{};  ///< likewise, that a shoulder is; empty: none is looked for
 };
 
 /// Poses of the vehicle, T_map_body.

@@ -36,7 +36,8 @@ LaneLayout laid_out(FoundLanes found) {
   LaneLayout layout{.boundaries = {},
                     .lanes = std::move(found.lanes),
                     .forks = std::move(found.forks),
-                    .denied = std::move(found.denied)};
+                    .denied = std::move(found.denied),
+                    .shoulders = std::move(found.shoulders)};
   std::vector<boundaries::LaneBoundary> added;
   for (InferredBoundary& one : found.inferred) {
     added.push_back({.marking = one.marking, .members = {one.marking.id}, .two_way = one.two_way});

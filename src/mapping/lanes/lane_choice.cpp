@@ -50,20 +50,22 @@ class Choice {
 
   void choose() {
     std::ranges::stable_sort(waiting_, std::greater{}, &Waiting::log_odds);
-    for (std::size_t i = 0; i < waiting_.size(); ++i) take(waiting_[i].hypothesis);
+    for (const Waiting& one : waiting_) take(one);
   }
 
   FoundLanes result() && {
     return {.boundaries = {},
             .lanes = std::move(lanes_),
             .inferred = std::move(inferred_),
-            .denied = std::move(denied_)};
+            .denied = std::move(denied_),
+            .shoulders = std::move(shoulders_)};
   }
 
  private:
   struct Waiting {
     Hypothesis hypothesis;
-    double log_odds = 0.0;
+    Lane::Use use = Lane::Use::lane;
+    double log_odds = 0.0;  ///< of its best run
   };
 
   void consider(Hypothesis hypothesis) {
@@ -74,9 +76,19 @@ class Choice {
     if (known_.contains({left_id, right_id}))
       for (double& log_odds : hypothesis.log_odds) log_odds += kKnown;
     if (!is_open(hypothesis.room) && were_two_between(hypothesis)) remember_two(hypothesis);
-    double best = 0.0;
-    for (const Run& run : best_runs(hypothesis.log_odds)) best = std::max(best, run.log_odds);
-    if (best > 0.0) waiting_.push_back({std::move(hypothesis), best});
+    Hypothesis shoulder;
+    if (!hypothesis.shoulder_log_odds.empty()) {
+      shoulder = hypothesis;
+      shoulder.log_odds = std::exchange(hypothesis.shoulder_log_odds, {});
+    }
+    await({.hypothesis = std::move(hypothesis)});
+    await({.hypothesis = std::move(shoulder), .use = Lane::Use::shoulder});
+  }
+
+  void await(Waiting one) {
+    for (const Run& run : best_runs(one.hypothesis.log_odds))
+      one.log_odds = std::max(one.log_odds, run.log_odds);
+    if (one.log_odds > 0.0) waiting_.push_back(std::move(one));
   }
 
   /// Weighs a strip in which the last map had two lanes, where nothing is seen between its borders now.
@@ -120,7 +132,8 @@ class Choice {
     }
   }
 
-  void take(const Hypothesis& one) {
+  void take(const Waiting& waiting) {
+    const Hypothesis& one = waiting.hypothesis;
     std::vector<double> free = one.log_odds;
     const std::vector<CrossSection> sections = sections_of(one);
     for (std::size_t i = 0; i < free.size(); ++i)
@@ -129,7 +142,7 @@ class Choice {
       if (run.log_odds <= 0.0) continue;
       const std::span part(sections.begin() + static_cast<std::ptrdiff_t>(run.begin), run.size());
       if (length_of(part) < config_.min_length_m) continue;
-      if (one.room == Room::between) add_lane(one, part);
+      if (one.room == Room::between) add_lane(one, part, waiting.use);
       if (one.room == Room::divided) add_divided(one, part);
       if (is_open(one.room)) add_open(one, part);
     }
@@ -231,11 +244,12 @@ class Choice {
     taken_.add(middle, 0.5 * width_m);
   }
 
-  void add_lane(const Hypothesis& one, std::span<const CrossSection> part) {
+  void add_lane(const Hypothesis& one, std::span<const CrossSection> part, Lane::Use use) {
     Lane lane = make_lane(part, left_border(one), right_border(one));
+    lane.use = use;
     lane.section = section_of_[one.base];
     occupy(one, part);
-    lanes_.push_back(std::move(lane));
+    (use == Lane::Use::shoulder ? shoulders_ : lanes_).push_back(std::move(lane));
   }
 
   void add_divided(const Hypothesis& one, std::span<const CrossSection> part) {
@@ -294,6 +308,7 @@ class Choice {
   std::vector<Lane> lanes_;
   std::vector<InferredBoundary> inferred_;
   std::vector<DeniedStretch> denied_;
+  std::vector<Lane> shoulders_;
 };
 
 }  // namespace

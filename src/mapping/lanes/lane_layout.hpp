@@ -41,6 +41,7 @@ struct LaneLayout {
   std::vector<Lane> lanes;
   std::vector<Fork> forks{};  ///< between lanes beside detected boundaries
   std::vector<DeniedStretch> denied{};
+  std::vector<Lane> shoulders{};
 
   /// The lane of an id. Null: there is none.
   const Lane* find(ElementId id) const {

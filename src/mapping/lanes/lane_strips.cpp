@@ -72,15 +72,16 @@ class Matching {
     }
   }
 
-  void deny(const DeniedStretch& stretch) {
-    const auto is_between = [&](const LaneStation& station) { return between(station, stretch.borders); };
+  /// Marks the stations between two boundaries along a line in their middle.
+  void mark(const std::array<ElementId, 2>& borders, const Polyline& line, bool Match::*what) {
+    const auto is_between = [&](const LaneStation& station) { return between(station, borders); };
     if (std::ranges::none_of(stations_, is_between)) return;
-    const MeasuredPolyline middle(stretch.middle);
+    const MeasuredPolyline middle(line);
     MeasuredPolyline::Cursor along(middle);
     for (std::size_t i = 0; i < stations_.size(); ++i) {
       if (!is_between(stations_[i])) continue;
       const Projection foot = along.project(centers_[i], kSameLane_m);
-      if (foot.inside && foot.distance_m < kSameLane_m) matches_[i].is_denied = true;
+      if (foot.inside && foot.distance_m < kSameLane_m) matches_[i].*what = true;
     }
   }
 
@@ -154,10 +155,13 @@ LaneStation Strip::at(double at_m) const {
   return between(stations[i - 1], stations[i], (at_m - before_m) / (center.arc_m(i) - before_m));
 }
 
-std::vector<Match> match(const LaneTrack& track, const std::vector<Strip>& strips,
-                         const std::vector<DeniedStretch>& denied) {
+std::vector<Match> match(const LaneTrack& track, const std::vector<Strip>& strips, const LaneLayout& found) {
   Matching matching(track);
-  for (const DeniedStretch& stretch : denied) matching.deny(stretch);
+  for (const DeniedStretch& stretch : found.denied)
+    matching.mark(stretch.borders, stretch.middle, &Match::is_denied);
+  for (const Lane& shoulder : found.shoulders)
+    matching.mark({shoulder.left_borders.front().boundary, shoulder.right_borders.front().boundary},
+                  shoulder.centerline, &Match::is_taken);
   for (std::size_t s = 0; s < strips.size(); ++s) matching.consider(strips[s], s);
   return matching.take();
 }

@@ -34,12 +34,12 @@ struct Match {
   std::optional<std::size_t> strip;  ///< that shows the lane there, by its index
   double arc_m = 0.0;                ///< on the center of the strip
   bool reversed = false;             ///< the strip runs against the track
-  bool is_taken = false;             ///< a strip that is another lane lies there
+  bool is_taken = false;             ///< another lane lies there, or a shoulder
   bool is_denied = false;            ///< the frame shows the borders, and says that no lane lies there
 };
 
-/// Per station of a track, its place in the strips of a frame.
-std::vector<Match> match(const LaneTrack& track, const std::vector<Strip>& strips,
-                         const std::vector<DeniedStretch>& denied);
+/// Per station of a track, its place in the strips of a frame. `found` has the denied stretches and the
+/// shoulders of the frame.
+std::vector<Match> match(const LaneTrack& track, const std::vector<Strip>& strips, const LaneLayout& found);
 
 }  // namespace laneloom::lanes

@@ -67,6 +67,16 @@ constexpr double kUsualFrom_m = 2.8, kUsualTo_m = 3.5;
 constexpr double kLeastSpan_m = 0.1;
 constexpr double kLeastEach_m = 2.2, kMostEach_m = 6.5;  // of a street's lanes, as the SD map counts them
 
+// Width of a shoulder, its line, and what lies across that.
+constexpr std::array kShoulderWidth{Knot{0.6, -2.0}, Knot{1.0, 1.0}, Knot{1.5, 2.0}};
+constexpr double kWiderShoulder = -10.0;  // per metre more than this below max_shoulder_width_m:
+constexpr double kUsualShoulder_m = 0.6;
+constexpr double kNoSolidLine = -3.0;     // without a style, every second one of such strips was a lane
+constexpr double kSolidLine = 4.5;        // solid share of the line
+constexpr double kBesideLane = 0.5;       // the next line lies across that line
+constexpr double kBesideNoLane = -6.0;    // an edge, as across the line in the middle of a road, or nothing
+constexpr double kDrivenShoulder = -8.0;  // the vehicle drives there
+
 constexpr double kAlongEdge_m = 1.2;                // distance of a line that is painted along an edge
 constexpr double kLeastWithin_m = 0.15;             // of an edge from a border
 constexpr double kLane_m = 2.2, kWideLane_m = 5.0;  // widths that rather are a lane's
@@ -236,7 +246,9 @@ double of_shoulder(const Surroundings& around, double width_m, Room room, const 
   const Mark& line = around.border(side);
   const double gap_m = around.gap_beyond_m(side);
   double sum = gap_m > kNothing_m ? kNothingBeyond : 0.0;
-  if (config.find_shoulders && room == Room::between && gap_m > kLane_m && gap_m < kWideLane_m)
+  const Mark* next = around.beyond(side);
+  if (config.find_shoulders && room == Room::between && next != nullptr && !next->is_edge &&
+      gap_m > kLane_m && gap_m < kWideLane_m)
     sum += kShoulder * 0.5 * (1.0 - line.dashed) *
            std::clamp(config.max_shoulder_width_m - width_m, 0.0, kMostNarrow_m);
   return sum;
@@ -321,6 +333,25 @@ double log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig
   Candidate instead = candidate;
   instead.room = candidate.room == Room::between ? Room::divided : Room::between;
   return sum + std::max(kLeastDriven - std::max(sum, of_lane(cut, instead, config)), 0.0);
+}
+
+bool may_be_shoulder(const RoadCut& cut, const Candidate& candidate) {
+  return candidate.room == Room::between &&
+         cut.marks[candidate.left].is_edge != cut.marks[candidate.right].is_edge;
+}
+
+double shoulder_log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config) {
+  const Surroundings around(cut, candidate);
+  const Side line = around.left().is_edge ? Side::right : Side::left;
+  const Mark* next = around.beyond(line);
+  const double gap_m = around.gap_beyond_m(line), wide_m = width_m(cut, candidate);
+  const bool is_beside_lane = next != nullptr && !next->is_edge && gap_m > kLane_m && gap_m < kNothing_m;
+  return on_curve(kShoulderWidth, wide_m) +
+         kWiderShoulder * std::max(wide_m + kUsualShoulder_m - config.max_shoulder_width_m, 0.0) +
+         kNoSolidLine + kSolidLine * solid(around.border(line)) +
+         (is_beside_lane ? kBesideLane : kBesideNoLane) + (candidate.driven ? kDrivenShoulder : 0.0) +
+         kSurer * bounded(std::min(around.left().log_odds, around.right().log_odds)) +
+         kEdgeInside * around.inside(true) + kLineInside * around.inside(false);
 }
 
 }  // namespace laneloom::lanes

@@ -40,4 +40,10 @@ bool is_kerb(const RoadCut& cut, std::size_t mark, Side side);
 /// simulated and real roads, by logistic regression (src/mapping/README.md).
 double log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config);
 
+/// Whether a candidate may be a shoulder: it lies between a line and an edge.
+bool may_be_shoulder(const RoadCut& cut, const Candidate& candidate);
+
+/// The log odds that a candidate that may be a shoulder is one. The weights were set by hand.
+double shoulder_log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config);
+
 }  // namespace laneloom::lanes

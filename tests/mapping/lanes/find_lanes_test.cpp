@@ -84,6 +84,15 @@ TEST(FindLanes, ShouldersAreNone) {
               testing::Contains(DoubleNear(2.6, 1e-6)));
 }
 
+TEST(FindLanes, AStripIsAShoulderWhereThatIsLikelierThanALane) {
+  EXPECT_THAT(widths({edge(2.8), solid(3.5), dashed(3.4), solid(0)}), are({3.5, 3.4}));
+  EXPECT_THAT(widths({edge(3.1), solid(3.5), dashed(3.4), solid(0)}), are({3.1, 3.5, 3.4}));
+  const FoundLanes found = find(road({edge(2.0), solid(3.5), dashed(3.4), solid(0)}));
+  ASSERT_EQ(found.shoulders.size(), 1U);
+  EXPECT_EQ(found.shoulders.front().use, Lane::Use::shoulder);
+  EXPECT_NEAR(found.shoulders.front().width_m, 2.0, 1e-6);
+}
+
 TEST(FindLanes, AKnownLaneIsDeniedWhereItsBordersTellOfNone) {
   const auto denied = [](const KnownBorders& known) {
     const Eigen::Isometry3d vehicle = test::at(10, kNowhere_m);
