@@ -206,8 +206,8 @@ void visit(auto& v, Is<SectionConfig> auto& c) {
 
 void visit(auto& v, Is<LaneConfig> auto& c) {
   auto& [method, min_width_m, max_width_m, max_kerb_width_m, find_shoulders, max_shoulder_width_m,
-         unmarked_roads, min_divided_width_m, one_sided_lanes, assumed_width_m, max_width_variation_m,
-         min_length_m, step_m, id_memory_frames] = c;
+         publish_shoulders, unmarked_roads, min_divided_width_m, one_sided_lanes, assumed_width_m,
+         max_width_variation_m, min_length_m, step_m, id_memory_frames] = c;
   choice(v, "method", method, kLaneMethods,
          "How lanes are found. scored: by log odds of width, styles and surroundings. paper: by the width "
          "alone, as in the paper.");
@@ -219,6 +219,10 @@ void visit(auto& v, Is<LaneConfig> auto& c) {
   v.flag("find_shoulders", find_shoulders,
          "Tell shoulders from lanes: narrow strips between a roadedge and the solid line of a lane.");
   v.number("max_shoulder_width_m", max_shoulder_width_m, {"m", 0.5, 20}, "A shoulder is narrower than this.");
+  v.flag("publish_shoulders", publish_shoulders,
+         "Publish shoulders, as lanes whose use is shoulder. A planner that does not read the use of a lane "
+         "would "
+         "drive in them.");
   v.flag("unmarked_roads", unmarked_roads,
          "Publish a wide road without a line as two lanes with an inferred boundary between them.");
   v.number("min_divided_width_m", min_divided_width_m, {"m", 1, 40},

@@ -72,9 +72,13 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
       lanes::find_lanes(std::move(sections), scene.box, driven,
                         {state.lane_tracks.known_borders(), &setup.sd_map}, config.lane),
       scene, config.lane, state.ids);  // III-D-3
-  return log.done(Stage::lanes,
-                  state.lane_tracks.update(std::move(found), scene, config.lane, state.ids,  // ours
-                                           log.reasons()));
+  lanes::LaneLayout layout =
+      state.lane_tracks.update(std::move(found), scene, config.lane, state.ids, log.reasons());  // ours
+  if (config.lane.publish_shoulders)
+    state.shoulders.update(scene, config.lane, state.ids, layout, log.reasons());
+  else
+    layout.shoulders.clear();
+  return log.done(Stage::lanes, std::move(layout));
 }
 
 /// The traffic on a road, and the driving side that it keeps to, in place of the configured one.
@@ -134,6 +138,8 @@ LocalMap assembled(const geometry::Scene& scene, markings::FusedMarkings fused, 
   map.lineage = lineage(before, state.published, fused.relatives);
   mark_stoplines(state.map.stoplines, map.lineage);
   mark_stoplines(map.stoplines, map.lineage);
+  std::ranges::move(road.shoulders, std::back_inserter(road.lanes));
+  std::ranges::sort(road.lanes, {}, &Lane::id);
   std::ranges::move(lane_lineage(state.map.lanes, road.lanes), std::back_inserter(map.lineage));
   for (boundaries::LaneBoundary& boundary : std::move(road.boundaries).take())
     map.boundaries.push_back(std::move(boundary.marking));

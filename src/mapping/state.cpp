@@ -13,12 +13,6 @@ constexpr std::size_t kMostPlaces = 30;
 
 void move(const Eigen::Isometry3d& motion, Point& point) { point = motion * point; }
 
-void move(const Eigen::Isometry3d& motion, lanes::LaneTrack& track) {
-  for (lanes::LaneStation& station : track.stations)
-    for (Point& border : station.border) move(motion, border);
-  move(motion, track.begin);
-}
-
 void move(const Eigen::Isometry3d& motion, Way& way) {
   for (WayStation& station : way.stations) {
     const Eigen::Vector2d ahead = motion.linear().topLeftCorner<2, 2>() * station.direction();
@@ -56,14 +50,14 @@ void MapperState::follow(const Eigen::Isometry3d& motion, const MapperConfig& co
     fusion = Fusion(config);
     inferred = {};
     lane_tracks = {};
+    shoulders = {};
     ego_track = {};
     return;
   }
   lines->move(motion);
   inferred.move(motion);
-  std::vector<lanes::LaneTrack> tracks = lane_tracks.all();
-  for (lanes::LaneTrack& track : tracks) move(motion, track);
-  lane_tracks = lanes::LaneTracks(std::move(tracks));
+  lane_tracks.move(motion);
+  shoulders.move(motion);
 }
 
 }  // namespace laneloom

@@ -10,6 +10,7 @@
 #include "mapping/lanes/inferred_memory.hpp"
 #include "mapping/lanes/known_lines.hpp"
 #include "mapping/lanes/lane_tracks.hpp"
+#include "mapping/lanes/shoulders.hpp"
 #include "mapping/lanes/wished_turn.hpp"
 #include "mapping/lineage.hpp"
 #include "mapping/lines/line_mapper.hpp"
@@ -68,6 +69,7 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
   Fusion fusion;
   lanes::InferredMemory inferred;
   lanes::LaneTracks lane_tracks;
+  lanes::Shoulders shoulders;
   topology::EgoTrack ego_track;
   trails::Trails trails;
   lanes::KnownLines driven_paths;
@@ -88,8 +90,8 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, fusion, inferred, lane_tracks, ego_track, trails, driven_paths, side, published, ids,
-            pose_jumps, driven, turn, map);
+    archive(frame, fusion, inferred, lane_tracks, shoulders, ego_track, trails, driven_paths, side, published,
+            ids, pose_jumps, driven, turn, map);
   }
 };
 

@@ -35,6 +35,7 @@ TEST_P(NoisyContract, IsKept) {
   simulation::Perception perception(road, simulation::noise_profile(noise), simulation::SensorView{}, seed);
   MapperConfig config;
   config.method = method;
+  config.lane.publish_shoulders = true;  // the lanes are the same with them
   Mapper mapper(config);
   std::size_t lanes = 0;
   int frames = 0, overlapping = 0;
@@ -63,6 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Drives, NoisyContract,
                                            Noisy{"town", "inhouse", FusionMethod::lines, 101},
                                            Noisy{"town", "av2", FusionMethod::lines, 1},
                                            Noisy{"street", "av2", FusionMethod::lines, 6},
+                                           Noisy{"motorway", "inhouse", FusionMethod::lines, 9},
                                            Noisy{"median", "av2", FusionMethod::lines, 5},
                                            Noisy{"overpass", "av2", FusionMethod::lines, 2},
                                            Noisy{"intersection", "inhouse", FusionMethod::lines, 4},

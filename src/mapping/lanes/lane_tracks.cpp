@@ -15,8 +15,9 @@
 namespace laneloom::lanes {
 namespace {
 
-constexpr double kMinSpacing = 0.4;   // of stations, as a share of LaneConfig::step_m
-constexpr std::size_t kLookedAt = 8;  // every so many stations tell how the road runs
+constexpr double kMinSpacing = 0.4;     // of stations, as a share of LaneConfig::step_m
+constexpr double kNeverThere = -100.0;  // log odds that no frame makes up for
+constexpr std::size_t kLookedAt = 8;    // every so many stations tell how the road runs
 
 /// Leaves out stations that do not lie ahead of the one before.
 void put_in_row(const LaneConfig& config, std::vector<LaneStation>& stations) {
@@ -129,7 +130,7 @@ LaneLayout LaneTracks::update(LaneLayout found, const geometry::Scene& scene, co
   std::vector<std::vector<Match>> matches;
   matches.reserve(tracks_.size());
   for (LaneTrack& track : tracks_) {
-    matches.push_back(match(track, strips, found.denied));
+    matches.push_back(match(track, strips, found));
     observe(strips, matches.back(), config, track);
     reasoning.observed(track, matches.back());
   }
@@ -166,6 +167,20 @@ LaneLayout LaneTracks::adopt(LaneLayout found, markings::IdSource& ids) {
   }
   find_neighbours(found);
   return found;
+}
+
+void LaneTracks::forget(const std::function<bool(const Point&)>& is_gone) {
+  for (LaneTrack& track : tracks_)
+    for (LaneStation& station : track.stations)
+      if (is_gone(station.center())) station.log_odds = kNeverThere;
+}
+
+void LaneTracks::move(const Eigen::Isometry3d& motion) {
+  for (LaneTrack& track : tracks_) {
+    for (LaneStation& station : track.stations)
+      for (Point& border : station.border) border = motion * border;
+    track.begin = motion * track.begin;
+  }
 }
 
 KnownBorders LaneTracks::known_borders() const {

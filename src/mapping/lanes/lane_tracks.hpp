@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -29,6 +31,11 @@ class LaneTracks {
 
   /// Takes the lanes that were found as they are, for a map that is made at once.
   LaneLayout adopt(LaneLayout found, markings::IdSource& ids);
+
+  /// Forgets the lanes at the places for which `is_gone` holds, map frame.
+  void forget(const std::function<bool(const Point&)>& is_gone);
+  /// Moves all of them, map frame.
+  void move(const Eigen::Isometry3d& motion);
 
   const std::vector<LaneTrack>& all() const { return tracks_; }
   /// The boundaries on the left and on the right of lanes that the last map showed, as the boundaries' road

@@ -34,6 +34,17 @@ void turn(Lane& lane) {
   }
 }
 
+/// The borders, one of each, that two lanes have in common. Null: they have none.
+std::pair<const Border*, const Border*> common_border(const Lane& a, const Lane& b) {
+  for (const Side side : kSides)
+    for (const Border& of_a : a.borders(side))
+      for (const Border& of_b : b.borders(opposite(side)))
+        if (of_a.boundary == of_b.boundary && of_a.boundary != kNoElement &&
+            geometry::common(of_a.on_boundary, of_b.on_boundary).length() > 0.0)
+          return {&of_a, &of_b};
+  return {};
+}
+
 }  // namespace
 
 void RoadGraph::sort_linkages() {
@@ -70,6 +81,17 @@ void RoadGraph::rename(const std::map<ElementId, ElementId>& ids) {
   }
   std::ranges::sort(lanes, {}, &Lane::id);
   sort_linkages();
+}
+
+void RoadGraph::turn_shoulders() {
+  for (Lane& shoulder : shoulders)
+    for (const Lane& lane : lanes) {
+      const auto [its, the_lanes] = common_border(shoulder, lane);
+      if (its == nullptr) continue;
+      if (its->reversed != the_lanes->reversed) topology::turn(shoulder);
+      shoulder.direction = lane.direction;
+      break;
+    }
 }
 
 }  // namespace laneloom::topology
