@@ -15,6 +15,7 @@ namespace laneloom::exports {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class ExportCommand : public Commands {
  protected:
@@ -182,6 +183,23 @@ TEST_F(ExportCommand, WithoutAPlaceAMapOfPosesInUtmKeepsItsShape) {
                            left.at(1).get<double>() - right.at(1).get<double>()),
                 3.5, 0.2);
   }
+}
+
+TEST_F(ExportCommand, ShouldersAreNoLanesInAnyFormat) {
+  simulate("motorway");
+  std::ofstream(file("c.yaml")) << "mapper: {lane: {publish_shoulders: true}}\n";
+  const std::string output = " --lanelet2 map.osm --opendrive map.xodr --geojson map.json --origin 48.1,11.5";
+  ASSERT_TRUE(done("export drive.frames.jsonl" + output));
+  const std::size_t lanes = simulation::load_lanelet2(file("map.osm")).lanes.size();
+  EXPECT_THAT(text("map.osm"), Not(HasSubstr("road_shoulder")));
+  ASSERT_TRUE(done("export drive.frames.jsonl --config c.yaml" + output));
+  EXPECT_THAT(text("map.osm"), HasSubstr("road_shoulder"));
+  EXPECT_THAT(text("map.xodr"), HasSubstr("type=\"shoulder\""));
+  EXPECT_THAT(text("map.json"), HasSubstr("\"kind\":\"shoulder\""));
+  EXPECT_EQ(simulation::load_lanelet2(file("map.osm")).lanes.size(), lanes);
+  ASSERT_TRUE(done("export drive.frames.jsonl --config c.yaml --no-extras" + output));
+  EXPECT_THAT(text("map.osm"), Not(HasSubstr("road_shoulder")));
+  EXPECT_THAT(text("map.osm"), HasSubstr("emergency_lane"));
 }
 
 TEST_F(ExportCommand, SeveralDrivesAreOneMapInTheFrameOfTheFirst) {

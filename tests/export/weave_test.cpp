@@ -71,5 +71,34 @@ TEST(Weave, AnEdgeIsContinuedWhereItWasNotSeen) {
   }
 }
 
+TEST(Weave, AShoulderRunsAsTheLaneBesideIt) {
+  const auto beside = [](double y) { return [y](double) { return y; }; };
+  const auto with_style = [](Marking marking, MarkingStyle style) {
+    marking.styles = {{{0.0, length(marking.points)}, style}};
+    return marking;
+  };
+  Polyline back = along_x(0.0, 60.0, beside(-3.5));
+  std::ranges::reverse(back);
+  MapperConfig config;
+  config.lane.publish_shoulders = true;
+  const LocalMap map =
+      weave(drive(-1.75, {line(1, MarkingType::roadedge, along_x(0.0, 60.0, beside(3.5))),
+                          with_style(line(2, MarkingType::laneline, along_x(0.0, 60.0, beside(0.0))),
+                                     MarkingStyle::dashed),
+                          with_style(line(3, MarkingType::laneline, std::move(back)), MarkingStyle::solid),
+                          line(4, MarkingType::roadedge, along_x(0.0, 60.0, beside(-5.5)))}),
+            config);
+  const auto shoulder = std::ranges::find(map.lanes, Lane::Use::shoulder, &Lane::use);
+  ASSERT_NE(shoulder, map.lanes.end());
+  EXPECT_TRUE(passes(*shoulder, {30.0, -4.5, 0.0}));
+  EXPECT_EQ(shoulder->direction, Lane::Direction::along_centerline);
+  EXPECT_LT(shoulder->centerline.front().x(), shoulder->centerline.back().x());
+  EXPECT_EQ(shoulder->left_borders.front().boundary, 3U);
+  EXPECT_EQ(std::ranges::count(map.lanes, Lane::Use::shoulder, &Lane::use), 1);
+  EXPECT_TRUE(std::ranges::none_of(map.linkages, [&](const Linkage& linkage) {
+    return linkage.from == shoulder->id || linkage.to == shoulder->id;
+  }));
+}
+
 }  // namespace
 }  // namespace laneloom::exports

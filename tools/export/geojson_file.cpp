@@ -128,8 +128,13 @@ class Successions {
   std::multimap<Ends, std::size_t> beginnings_;
 };
 
+const char* kind_of(const RoadNetwork::Lanelet& lanelet) {
+  if (lanelet.shoulder) return "shoulder";
+  return lanelet.linkage ? "linkage" : "lane";
+}
+
 json properties_of(const RoadNetwork::Lanelet& lanelet, std::size_t index, const Successions& successions) {
-  return {{"kind", lanelet.linkage ? "linkage" : "lane"},
+  return {{"kind", kind_of(lanelet)},
           {"one_way", lanelet.one_way},
           {"turn", turn_of(lanelet)},
           {"existence", or_null(lanelet.existence_probability)},

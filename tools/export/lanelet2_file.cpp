@@ -125,10 +125,10 @@ void add_lanelets(const RoadNetwork& network, const Ids& ids, pugi::xml_node& os
       for (const std::size_t stopped : network.stops[stop].lanelets)
         if (stopped == i) add_member(relation, "relation", "regulatory_element", ids.stop(stop));
     add_tag(relation, "type", "lanelet");
-    add_tag(relation, "subtype", "road");
+    add_tag(relation, "subtype", lanelet.shoulder ? "road_shoulder" : "road");
     add_tag(relation, "location", "urban");
     add_tag(relation, "one_way", lanelet.one_way ? "yes" : "no");
-    add_tag(relation, "participant:vehicle", "yes");
+    if (!lanelet.shoulder) add_tag(relation, "participant:vehicle", "yes");
     if (lanelet.turn != Linkage::Turn::unknown)
       add_tag(relation, "turn_direction", turn_direction(network, lanelet));
     add_tag(relation, "laneloom:status", name(lanelet.status));
@@ -146,7 +146,7 @@ void add_stops(const RoadNetwork& network, const Ids& ids, pugi::xml_node& osm) 
   }
 }
 
-/// Removes the tags that Lanelet2 does not know.
+/// Removes the tags that Lanelet2 does not know. Its own name of a shoulder is another one than Autoware's.
 void remove_extras(pugi::xml_node& osm) {
   const auto is_extra = [](const std::string_view key) {
     return key == "local_x" || key == "local_y" || key == "turn_direction" || key.starts_with("laneloom:");
@@ -154,7 +154,10 @@ void remove_extras(pugi::xml_node& osm) {
   for (pugi::xml_node element : osm.children())
     for (pugi::xml_node tag = element.child("tag"); tag;) {
       const pugi::xml_node next = tag.next_sibling("tag");
-      if (is_extra(tag.attribute("k").value())) element.remove_child(tag);
+      if (is_extra(tag.attribute("k").value()))
+        element.remove_child(tag);
+      else if (tag.attribute("v").value() == std::string_view("road_shoulder"))
+        tag.attribute("v") = "emergency_lane";
       tag = next;
     }
 }

@@ -91,6 +91,11 @@ pugi::xml_node add_lane(pugi::xml_node& side, int id, const char* type) {
   return lane;
 }
 
+const char* lane_type(const RoadNetwork::Lanelet& lanelet) {
+  if (lanelet.shoulder) return "shoulder";
+  return lanelet.one_way ? "driving" : "bidirectional";
+}
+
 /// Writes the roads of a network.
 class Writer {
  public:
@@ -147,7 +152,7 @@ class Writer {
     for (std::size_t i = 0; i < way.lanelets.size(); ++i) {
       const RoadNetwork::Lanelet& lanelet = network_.lanelets[way.lanelets[i]];
       const int id = -1 - static_cast<int>(i);
-      pugi::xml_node lane = add_lane(right, id, lanelet.one_way ? "driving" : "bidirectional");
+      pugi::xml_node lane = add_lane(right, id, lane_type(lanelet));
       pugi::xml_node link = lane.append_child("link");
       add_lane_link(number, id, false, link);
       add_lane_link(number, id, true, link);

@@ -28,6 +28,7 @@ struct RoadNetwork {
   struct Lanelet {
     Side left, right;
     bool one_way = true;                          ///< else its direction is not known
+    bool shoulder = false;                        ///< no traffic runs there
     ElementId lane = kNoElement;                  ///< lane of the map; kNoElement: it is a linkage's lanelet
     std::optional<std::size_t> linkage;           ///< index in the map's linkages
     Linkage::Turn turn = Linkage::Turn::unknown;  ///< across an intersection; unknown: it is in none

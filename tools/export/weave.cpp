@@ -70,10 +70,16 @@ LocalMap weave(const SurveyedRoad& surveyed, const MapperConfig& config) {
       road_sections(std::move(boundaries), scene.T_map_body(), config.section);
   lanes::FoundLanes found =
       lanes::find_lanes(std::move(sections), scene.box, {surveyed.poses, {}}, {}, config.lane);
+  if (!config.lane.publish_shoulders) found.shoulders.clear();
   lanes::LaneLayout layout = tracks.adopt(inferred.recognise(std::move(found), scene, config.lane, ids), ids);
   topology::RoadGraph road = topology::link_lanes(std::move(layout), config.linkage);
   link(surveyed, config, tracks, road);
   map.stoplines = topology::tie_stoplines(surveyed.markings, road.lanes, config.stopline);
+  road.turn_shoulders();
+  for (Lane& shoulder : road.shoulders) {
+    shoulder.id = ids.next();
+    road.lanes.push_back(std::move(shoulder));
+  }
   map.lanes = std::move(road.lanes);
   map.linkages = std::move(road.linkages);
   for (boundaries::LaneBoundary& boundary : std::move(road.boundaries).take())
