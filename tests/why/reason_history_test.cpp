@@ -92,7 +92,7 @@ TEST(ReasonHistory, ALaneHasItsTermsThoseOfItsDirectionAndItsLines) {
   EXPECT_EQ(text[2],
             "This frame added -0.25: of 10 places known before, it showed the lane at 4, its borders without "
             "a lane "
-            "at 3, another lane at 1, nothing at 2.");
+            "at 3, another lane or a shoulder at 1, nothing at 2.");
   EXPECT_EQ(text[3],
             "That its traffic runs along its points has log odds of +2.00, smoothed over frames: +1.50 by "
             "trails of others, +0.50 by one-way streets of the SD map.");
