@@ -221,8 +221,7 @@ void visit(auto& v, Is<LaneConfig> auto& c) {
   v.number("max_shoulder_width_m", max_shoulder_width_m, {"m", 0.5, 20}, "A shoulder is narrower than this.");
   v.flag("publish_shoulders", publish_shoulders,
          "Publish shoulders, as lanes whose use is shoulder. A planner that does not read the use of a lane "
-         "would "
-         "drive in them.");
+         "would drive in them.");
   v.flag("unmarked_roads", unmarked_roads,
          "Publish a wide road without a line as two lanes with an inferred boundary between them.");
   v.number("min_divided_width_m", min_divided_width_m, {"m", 1, 40},

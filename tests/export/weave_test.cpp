@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -71,33 +72,39 @@ TEST(Weave, AnEdgeIsContinuedWhereItWasNotSeen) {
   }
 }
 
-TEST(Weave, AShoulderRunsAsTheLaneBesideIt) {
-  const auto beside = [](double y) { return [y](double) { return y; }; };
-  const auto with_style = [](Marking marking, MarkingStyle style) {
-    marking.styles = {{{0.0, length(marking.points)}, style}};
+TEST(Weave, ShouldersRunAsTheLanesBesideThem) {
+  const auto line_at = [](ElementId id, MarkingType type, double y, MarkingStyle style) {
+    Marking marking = line(id, type, along_x(0.0, 60.0, [y](double) { return y; }));
+    marking.styles = {{{0.0, 60.0}, style}};
     return marking;
   };
-  Polyline back = along_x(0.0, 60.0, beside(-3.5));
-  std::ranges::reverse(back);
   MapperConfig config;
   config.lane.publish_shoulders = true;
-  const LocalMap map =
-      weave(drive(-1.75, {line(1, MarkingType::roadedge, along_x(0.0, 60.0, beside(3.5))),
-                          with_style(line(2, MarkingType::laneline, along_x(0.0, 60.0, beside(0.0))),
-                                     MarkingStyle::dashed),
-                          with_style(line(3, MarkingType::laneline, std::move(back)), MarkingStyle::solid),
-                          line(4, MarkingType::roadedge, along_x(0.0, 60.0, beside(-5.5)))}),
-            config);
-  const auto shoulder = std::ranges::find(map.lanes, Lane::Use::shoulder, &Lane::use);
-  ASSERT_NE(shoulder, map.lanes.end());
-  EXPECT_TRUE(passes(*shoulder, {30.0, -4.5, 0.0}));
-  EXPECT_EQ(shoulder->direction, Lane::Direction::along_centerline);
-  EXPECT_LT(shoulder->centerline.front().x(), shoulder->centerline.back().x());
-  EXPECT_EQ(shoulder->left_borders.front().boundary, 3U);
-  EXPECT_EQ(std::ranges::count(map.lanes, Lane::Use::shoulder, &Lane::use), 1);
-  EXPECT_TRUE(std::ranges::none_of(map.linkages, [&](const Linkage& linkage) {
-    return linkage.from == shoulder->id || linkage.to == shoulder->id;
-  }));
+  SurveyedRoad there_and_back =
+      drive(-1.75, {line_at(1, MarkingType::roadedge, 5.5, MarkingStyle::unknown),
+                    line_at(2, MarkingType::laneline, 3.5, MarkingStyle::solid),
+                    line_at(3, MarkingType::laneline, 0.0, MarkingStyle::dashed),
+                    line_at(4, MarkingType::laneline, -3.5, MarkingStyle::solid),
+                    line_at(5, MarkingType::roadedge, -5.5, MarkingStyle::unknown)});
+  const Eigen::AngleAxisd turned(std::numbers::pi, Eigen::Vector3d::UnitZ());
+  for (double x = 60.0; x >= 0.0; x -= 2.0)
+    there_and_back.poses.emplace_back(Eigen::Translation3d(x, 1.75, 0.0) * turned);
+  const LocalMap map = weave(there_and_back, config);
+  EXPECT_EQ(std::ranges::count(map.lanes, Lane::Use::shoulder, &Lane::use), 2);
+  for (const double side : {-1.0, 1.0}) {
+    SCOPED_TRACE(side);
+    const auto shoulder = std::ranges::find_if(map.lanes, [&](const Lane& lane) {
+      return lane.use == Lane::Use::shoulder && passes(lane, {30.0, side * 4.5, 0.0});
+    });
+    ASSERT_NE(shoulder, map.lanes.end());
+    EXPECT_EQ(shoulder->direction, Lane::Direction::along_centerline);
+    const double ahead_m = shoulder->centerline.back().x() - shoulder->centerline.front().x();
+    EXPECT_LT(side * ahead_m, -30.0) << "traffic keeps right";
+    EXPECT_EQ(shoulder->left_borders.front().boundary, side < 0.0 ? 4U : 2U);
+    EXPECT_TRUE(std::ranges::none_of(map.linkages, [&](const Linkage& linkage) {
+      return linkage.from == shoulder->id || linkage.to == shoulder->id;
+    }));
+  }
 }
 
 }  // namespace

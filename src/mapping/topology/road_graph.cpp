@@ -1,6 +1,7 @@
 #include "mapping/topology/road_graph.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -34,15 +35,16 @@ void turn(Lane& lane) {
   }
 }
 
-/// The borders, one of each, that two lanes have in common. Null: they have none.
-std::pair<const Border*, const Border*> common_border(const Lane& a, const Lane& b) {
+/// The sides of a lane and of one beside it that have a stretch of a boundary in common.
+std::optional<std::pair<Side, Side>> common_sides(const Lane& a, const Lane& b) {
   for (const Side side : kSides)
-    for (const Border& of_a : a.borders(side))
-      for (const Border& of_b : b.borders(opposite(side)))
-        if (of_a.boundary == of_b.boundary && of_a.boundary != kNoElement &&
-            geometry::common(of_a.on_boundary, of_b.on_boundary).length() > 0.0)
-          return {&of_a, &of_b};
-  return {};
+    for (const Side other : kSides)
+      for (const Border& of_a : a.borders(side))
+        for (const Border& of_b : b.borders(other))
+          if (of_a.boundary == of_b.boundary && of_a.boundary != kNoElement &&
+              geometry::common(of_a.on_boundary, of_b.on_boundary).length() > 0.0)
+            return std::pair(side, other);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -86,9 +88,9 @@ void RoadGraph::rename(const std::map<ElementId, ElementId>& ids) {
 void RoadGraph::turn_shoulders() {
   for (Lane& shoulder : shoulders)
     for (const Lane& lane : lanes) {
-      const auto [its, the_lanes] = common_border(shoulder, lane);
-      if (its == nullptr) continue;
-      if (its->reversed != the_lanes->reversed) topology::turn(shoulder);
+      const auto sides = common_sides(shoulder, lane);
+      if (!sides) continue;
+      if (sides->first == sides->second) topology::turn(shoulder);
       shoulder.direction = lane.direction;
       break;
     }
