@@ -107,7 +107,7 @@ TEST(RoadKinds, AStreetHasTwoLanesWhereverTheVehicleDrives) {
 }
 
 TEST(RoadKinds, ANarrowRoadBetweenKerbsHasTwoLanesBesideASolidLine) {
-  for (double width_m = 2.5; width_m < 3.5; width_m += 0.1) {
+  for (double width_m = 2.8; width_m < 3.5; width_m += 0.1) {
     SCOPED_TRACE(width_m);
     const LocalMap map = driven({{kEdge, 1.5 * width_m}, {.left_m = 0.5 * width_m}, {kEdge, -0.5 * width_m}});
     EXPECT_THAT(map.lanes, SizeIs(2));

@@ -246,9 +246,7 @@ double of_shoulder(const Surroundings& around, double width_m, Room room, const 
   const Mark& line = around.border(side);
   const double gap_m = around.gap_beyond_m(side);
   double sum = gap_m > kNothing_m ? kNothingBeyond : 0.0;
-  const Mark* next = around.beyond(side);
-  if (config.find_shoulders && room == Room::between && next != nullptr && !next->is_edge &&
-      gap_m > kLane_m && gap_m < kWideLane_m)
+  if (config.find_shoulders && room == Room::between && gap_m > kLane_m && gap_m < kWideLane_m)
     sum += kShoulder * 0.5 * (1.0 - line.dashed) *
            std::clamp(config.max_shoulder_width_m - width_m, 0.0, kMostNarrow_m);
   return sum;
