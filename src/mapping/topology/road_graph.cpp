@@ -4,6 +4,7 @@
 #include <optional>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "laneloom/polyline.hpp"
 #include "mapping/geometry/stretches.hpp"
@@ -35,15 +36,21 @@ void turn(Lane& lane) {
   }
 }
 
-/// The sides of a lane and of one beside it that have a stretch of a boundary in common.
-std::optional<std::pair<Side, Side>> common_sides(const Lane& a, const Lane& b) {
+std::vector<lanes::LaneSide> sides_of(const Lane& lane) {
+  std::vector<lanes::LaneSide> sides;
   for (const Side side : kSides)
-    for (const Side other : kSides)
-      for (const Border& of_a : a.borders(side))
-        for (const Border& of_b : b.borders(other))
-          if (of_a.boundary == of_b.boundary && of_a.boundary != kNoElement &&
-              geometry::common(of_a.on_boundary, of_b.on_boundary).length() > 0.0)
-            return std::pair(side, other);
+    for (const Border& border : lane.borders(side))
+      if (border.boundary != kNoElement) sides.push_back(lanes::lane_side(border, side));
+  return sides;
+}
+
+/// Whether two lanes on both sides of one boundary run against one another. Empty: they lie beside none.
+std::optional<bool> runs_against(const Lane& lane, const Lane& beside) {
+  const std::vector<lanes::LaneSide> across = sides_of(beside);
+  for (const lanes::LaneSide& side : sides_of(lane))
+    for (const lanes::LaneSide& other : across)
+      if (other.of == side.of.other() && geometry::common(other.range, side.range).length() > 0.0)
+        return other.reversed != side.reversed;
   return std::nullopt;
 }
 
@@ -88,9 +95,9 @@ void RoadGraph::rename(const std::map<ElementId, ElementId>& ids) {
 void RoadGraph::turn_shoulders() {
   for (Lane& shoulder : shoulders)
     for (const Lane& lane : lanes) {
-      const auto sides = common_sides(shoulder, lane);
-      if (!sides) continue;
-      if (sides->first == sides->second) topology::turn(shoulder);
+      const std::optional<bool> against = runs_against(shoulder, lane);
+      if (!against) continue;
+      if (*against) topology::turn(shoulder);
       shoulder.direction = lane.direction;
       break;
     }
