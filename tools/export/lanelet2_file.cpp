@@ -115,7 +115,13 @@ std::string turn_direction(const RoadNetwork& network, const RoadNetwork::Lanele
   return lanelet.turn == Turn::left ? "left" : "right";
 }
 
-void add_lanelets(const RoadNetwork& network, const Ids& ids, pugi::xml_node& osm) {
+/// Autoware's name of a shoulder is an extra. Lanelet2's own is another one.
+const char* subtype(const RoadNetwork::Lanelet& lanelet, bool extras) {
+  if (!lanelet.shoulder) return "road";
+  return extras ? "road_shoulder" : "emergency_lane";
+}
+
+void add_lanelets(const RoadNetwork& network, const Ids& ids, bool extras, pugi::xml_node& osm) {
   for (std::size_t i = 0; i < network.lanelets.size(); ++i) {
     const RoadNetwork::Lanelet& lanelet = network.lanelets[i];
     pugi::xml_node relation = add_element(osm, "relation", ids.lanelet(i));
@@ -125,7 +131,7 @@ void add_lanelets(const RoadNetwork& network, const Ids& ids, pugi::xml_node& os
       for (const std::size_t stopped : network.stops[stop].lanelets)
         if (stopped == i) add_member(relation, "relation", "regulatory_element", ids.stop(stop));
     add_tag(relation, "type", "lanelet");
-    add_tag(relation, "subtype", lanelet.shoulder ? "road_shoulder" : "road");
+    add_tag(relation, "subtype", subtype(lanelet, extras));
     add_tag(relation, "location", "urban");
     add_tag(relation, "one_way", lanelet.one_way ? "yes" : "no");
     if (!lanelet.shoulder) add_tag(relation, "participant:vehicle", "yes");
@@ -146,7 +152,7 @@ void add_stops(const RoadNetwork& network, const Ids& ids, pugi::xml_node& osm) 
   }
 }
 
-/// Removes the tags that Lanelet2 does not know. Its own name of a shoulder is another one than Autoware's.
+/// Removes the tags that Lanelet2 does not know.
 void remove_extras(pugi::xml_node& osm) {
   const auto is_extra = [](const std::string_view key) {
     return key == "local_x" || key == "local_y" || key == "turn_direction" || key.starts_with("laneloom:");
@@ -154,10 +160,7 @@ void remove_extras(pugi::xml_node& osm) {
   for (pugi::xml_node element : osm.children())
     for (pugi::xml_node tag = element.child("tag"); tag;) {
       const pugi::xml_node next = tag.next_sibling("tag");
-      if (is_extra(tag.attribute("k").value()))
-        element.remove_child(tag);
-      else if (tag.attribute("v").value() == std::string_view("road_shoulder"))
-        tag.attribute("v") = "emergency_lane";
+      if (is_extra(tag.attribute("k").value())) element.remove_child(tag);
       tag = next;
     }
 }
@@ -176,7 +179,7 @@ void write_lanelet2(const std::filesystem::path& path, const RoadNetwork& networ
   const Ids ids(network);
   add_nodes(network, ids, origin, osm);
   add_ways(network, ids, osm);
-  add_lanelets(network, ids, osm);
+  add_lanelets(network, ids, extras, osm);
   add_stops(network, ids, osm);
   if (!extras) remove_extras(osm);
   io::TextFile file(path);
