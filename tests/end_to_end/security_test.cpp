@@ -200,20 +200,22 @@ void openssl(const std::vector<std::string>& arguments) {
 /// The planner hears so many services, while one with the identity `other`, which may do it as far as its own
 /// side can tell, publishes maps beside the right one.
 void expect_heard(std::size_t services, const Identities& identities, const fs::path& other) {
-  const As as = [&, config = private_config()](const std::string& name) {
-    return identities.as(name, config);
-  };
-  Followed followed(as);
-  EXPECT_TRUE(followed.maps.wait_for(any)) << followed.service.errors();
-  const Service intruder(as(other));
-  EXPECT_TRUE(intruder.wait_for_error("event=started")) << intruder.errors();
-  std::set<std::uint64_t> heard;
-  followed.maps.wait_for([&](const PublishedMap& map) {
-    heard.insert(map.session_id);
-    return heard.size() == services;
-  });
-  EXPECT_TRUE(goes_on(followed) && goes_on(followed));
-  EXPECT_EQ(followed.sessions().size(), services);
+  // Fast DDS 2.9 now and then gives up a handshake. Whoever must not be heard is heard in no attempt.
+  EXPECT_TRUE(one_of_three([&, config = private_config()] {
+    const As as = [&](const std::string& name) { return identities.as(name, config); };
+    Followed followed(as);
+    if (!followed.maps.wait_for(any)) return false;
+    const Service intruder(as(other));
+    EXPECT_TRUE(intruder.wait_for_error("event=started")) << intruder.errors();
+    std::set<std::uint64_t> heard;
+    followed.maps.wait_for([&](const PublishedMap& map) {
+      heard.insert(map.session_id);
+      return heard.size() == services;
+    });
+    EXPECT_TRUE(goes_on(followed) && goes_on(followed));
+    EXPECT_LE(followed.sessions().size(), services);
+    return followed.sessions().size() == services;
+  }));
 }
 
 /// Perception may do everything in these domains, and its own in all.
