@@ -44,7 +44,7 @@ TEST(StatusReport, TellsHowTheServiceIs) {
   EXPECT_THAT(text, HasSubstr("mean 0.90  p50 0.60  p99 4.90  max 6.00 ms"));
   EXPECT_THAT(text, HasSubstr("\"front camera\": 31 frames, 100 to 130, session 9"));
   EXPECT_THAT(text, HasSubstr("lateral deviation      0.03 m at 8"));
-  EXPECT_THAT(text, HasSubstr("believed of pitch, pose 0.90 of"));
+  EXPECT_THAT(text, HasSubstr("believed of pitch      0.90 of"));
   EXPECT_THAT(text, Not(HasSubstr("lanelines seen"))) << "it is not told";
   EXPECT_THAT(text, HasSubstr("poses_refused_late"));
   EXPECT_THAT(text, Not(HasSubstr("poses_lost"))) << "it is zero";

@@ -60,7 +60,9 @@ std::string learned_lines(const SourceStatus& source) {
   line("lateral deviation", " m at 8, 12, 18, 26, 36, 48 m",
        {"stddev_at_8_m", "stddev_at_12_m", "stddev_at_18_m", "stddev_at_26_m", "stddev_at_36_m",
         "stddev_at_48_m"});
-  line("believed of pitch, pose", " of what is suspected", {"pitch_gain", "alignment_gain"});
+  line("believed of pitch", " of what is suspected at once, of what lasts",
+       {"pitch_gain", "lasting_pitch_gain"});
+  line("believed of pose", " of what is suspected", {"alignment_gain"});
   for (const std::string type : {"laneline", "roadedge"})
     line((type + "s seen").c_str(), " of those there, 0, 10, 20, 30 m ahead",
          {"rate_" + type + "_ahead_0_m", "rate_" + type + "_ahead_10_m", "rate_" + type + "_ahead_20_m",

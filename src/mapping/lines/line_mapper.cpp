@@ -31,8 +31,7 @@ Viewpoint viewpoint(const markings::ObservedFrame& observed, std::size_t source,
           .stamp_ns = observed.frame.stamp_ns,
           .source = static_cast<std::uint32_t>(source),
           .news = network.standpoint.news(observed.T_map_body.translation(), observed.frame.stamp_ns),
-          .pitch_gain = network.lateral.pitch_gain(),
-          .alignment_gain = network.lateral.alignment_gain()};
+          .gains = network.lateral.gains()};
 }
 
 /// Tells how far each detection is believed, and keeps those that are sure enough. Returns the number of the
@@ -103,11 +102,12 @@ Association LineMapper::associated(std::vector<markings::ObservedMarking> markin
                                    const FusionConfig& config, Viewpoint& from) {
   const Eigen::Isometry3d& T_map_body = from.T_map_body;
   auto detections = sample_detections(join_dashes(std::move(markings)), config);
-  from.stretch_per_m = network.pitch.news(estimate_stretch_per_m(detections, T_map_body));
-  unstretch(from.pitch_gain * from.stretch_per_m, T_map_body, detections);
+  from.stretch = network.pitch.parts(estimate_stretch_per_m(detections, T_map_body));
+  unstretch(from.gains[kSuddenPitch] * from.stretch.sudden_per_m +
+                from.gains[kLastingPitch] * from.stretch.lasting_per_m,
+            T_map_body, detections);
   LineMatcher matcher(lines_, config);
-  const FrameErrors errors =
-      align_frame(T_map_body, from.alignment_gain, matcher, detections, lasting_error_);
+  const FrameErrors errors = align_frame(T_map_body, from.gains[kPose], matcher, detections, lasting_error_);
   from.error = errors.likely;
   away_m_ = std::abs(errors.away.y()) + kLever_m * std::abs(errors.away.z());
   away_variance_m2_ += kAwayNews * (away_m_ * away_m_ - away_variance_m2_);

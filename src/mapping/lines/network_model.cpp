@@ -11,7 +11,9 @@ namespace {
 
 constexpr double kMemory = 20000.0;   // views; those of neighbouring stations are nearly the same
 constexpr double kPriorViews = 50.0;  // weight of the configured deviation, in views
-constexpr double kPriorGain = 100.0;  // evidence that speaks against any suspicion, in squared deviations
+// Evidence that speaks against each suspicion, in squared deviations. Frames in a row tell of one lasting
+// pitch.
+const PerSuspicion kPriorGains{100.0, 300.0, 100.0};
 constexpr double kMinLearned_m = 0.02, kMaxLearned_m = 1.0;
 constexpr double kOutlier = 3.0;  // deviations; a larger error counts as this
 
@@ -28,24 +30,25 @@ Between between(double range_m) {
   return {node, std::clamp((range_m - nodes_m[node]) / (nodes_m[node + 1] - nodes_m[node]), 0.0, 1.0)};
 }
 
-constexpr const char *kPitchGain = "pitch_gain", *kAlignmentGain = "alignment_gain";
+constexpr std::array<std::pair<Suspicion, const char*>, PerSuspicion::SizeAtCompileTime> kGainNames{
+    {{kSuddenPitch, "pitch_gain"}, {kLastingPitch, "lasting_pitch_gain"}, {kPose, "alignment_gain"}}};
 
 std::string stddev_name(double range_m) { return "stddev_at_" + std::to_string(std::lround(range_m)) + "_m"; }
 
-void add(double value, double& sum) { sum += value - sum / kMemory; }
-
 }  // namespace
 
-double Gain::value() const { return std::clamp(effect_ / (evidence_ + kPriorGain), 0.0, 1.0); }
-
-void Gain::start_with(const LearnedValue& known) {
-  evidence_ = known.weight;
-  effect_ = known.value * (known.weight + kPriorGain);
+PerSuspicion Gains::values() const {
+  return effect_.cwiseQuotient(evidence_ + kPriorGains).cwiseMax(0.0).cwiseMin(1.0);
 }
 
-void Gain::learn(double suspected, double proved) {
-  add(suspected * suspected, evidence_);
-  add(suspected * proved, effect_);
+void Gains::start_with(Suspicion suspicion, const LearnedValue& known) {
+  evidence_[suspicion] = known.weight;
+  effect_[suspicion] = known.value * (known.weight + kPriorGains[suspicion]);
+}
+
+void Gains::learn(const PerSuspicion& suspected, const PerSuspicion& proved) {
+  evidence_ += suspected.cwiseAbs2() - evidence_ / kMemory;
+  effect_ += suspected.cwiseProduct(proved) - effect_ / kMemory;
 }
 
 NetworkModel::NetworkModel(const FusionConfig& config, const NetworkProfile& profile) {
@@ -59,8 +62,7 @@ NetworkModel::NetworkModel(const FusionConfig& config, const NetworkProfile& pro
     views_[i] = views;
     squares_m2_[i] = views * stddev_m * stddev_m;
   }
-  pitch_.start_with(known(kPitchGain, {}));
-  alignment_.start_with(known(kAlignmentGain, {}));
+  for (const auto& [suspicion, name] : kGainNames) gains_.start_with(suspicion, known(name, {}));
 }
 
 double NetworkModel::stddev_m(double range_m) const {
@@ -72,14 +74,10 @@ double NetworkModel::stddev_m(double range_m) const {
 
 void NetworkModel::learn(const FarView& view, double near_m) {
   const double stddev_m = this->stddev_m(view.range_m), limit_m = kOutlier * stddev_m;
-  const double error_m = std::clamp(
-      view.lateral_m - near_m - pitch_gain() * view.stretched_m - alignment_gain() * view.misplaced_m,
-      -limit_m, limit_m);
-  // Each gain learns from the error that the other one leaves.
-  const double stretched = view.stretched_m / stddev_m, misplaced = view.misplaced_m / stddev_m;
-  const double left = error_m / stddev_m;
-  pitch_.learn(stretched, left + pitch_gain() * stretched);
-  alignment_.learn(misplaced, left + alignment_gain() * misplaced);
+  const PerSuspicion taken_m = gains().cwiseProduct(view.suspected_m);
+  const double error_m = std::clamp(view.lateral_m - near_m - taken_m.sum(), -limit_m, limit_m);
+  // Each gain learns from the error that the others leave.
+  gains_.learn(view.suspected_m / stddev_m, (PerSuspicion::Constant(error_m) + taken_m) / stddev_m);
   const auto [node, share] = between(view.range_m);
   for (const auto& [i, weight] : {std::pair(node, 1.0 - share), {node + 1, share}}) {
     squares_m2_[i] += weight * (error_m * error_m - squares_m2_[i] / kMemory);
@@ -88,8 +86,9 @@ void NetworkModel::learn(const FarView& view, double near_m) {
 }
 
 NetworkProfile NetworkModel::profile() const {
-  NetworkProfile profile{{kPitchGain, {pitch_gain(), pitch_.evidence()}},
-                         {kAlignmentGain, {alignment_gain(), alignment_.evidence()}}};
+  NetworkProfile profile;
+  for (const auto& [suspicion, name] : kGainNames)
+    profile[name] = {gains()[suspicion], gains_.evidence()[suspicion]};
   for (std::size_t i = 0; i < kNodes_m.size(); ++i)
     profile[stddev_name(kNodes_m[i])] = {stddev_m(kNodes_m[i]), views_[i]};
   return profile;

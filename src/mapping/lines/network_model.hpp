@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,39 +11,47 @@
 
 namespace laneloom::lines {
 
+/// Errors that are suspected of a whole frame.
+enum Suspicion : std::uint8_t {
+  kSuddenPitch,   ///< how the pitch differs from that of the frames before
+  kLastingPitch,  ///< the pitch of the frames before
+  kPose
+};
+/// A value for each suspicion.
+using PerSuspicion = Eigen::Vector3d;
+
 /// A view of a place from far, kept until the place is seen from near.
 struct FarView {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::uint32_t source = kNone;  ///< number of the network
   double range_m = 0.0;          ///< from the vehicle to the place
   double lateral_m = 0.0;        ///< to the left of where the station was made
-  double stretched_m = 0.0;      ///< part of it that is suspected to come from the frame's pitch
-  double misplaced_m = 0.0;      ///< part of it that is suspected to come from the frame's pose
+  /// Parts of it that are suspected to be errors of the frame.
+  PerSuspicion suspected_m = PerSuspicion::Zero();
 
   /// Lets left be right, for a line that runs the other way.
   void mirror() {
     lateral_m = -lateral_m;
-    stretched_m = -stretched_m;
-    misplaced_m = -misplaced_m;
+    suspected_m = -suspected_m;
   }
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(source, range_m, lateral_m, stretched_m, misplaced_m);
+    archive(source, range_m, lateral_m, suspected_m);
   }
 };
 
-/// The share of suspected errors that proved true: a regression through 0.
-class Gain {
+/// The shares of suspected errors that proved true: a regression through 0 for each suspicion.
+class Gains {
  public:
-  /// The share, 0..1. It is 0 at first.
-  double value() const;
-  /// Sum of the squares of the suspected errors.
-  double evidence() const { return evidence_; }
+  /// The shares, 0..1. They are 0 at first.
+  PerSuspicion values() const;
+  /// Sums of the squares of the suspected errors.
+  const PerSuspicion& evidence() const { return evidence_; }
   /// Starts with a share (`value`) and the evidence for it (`weight`) that are known already.
-  void start_with(const LearnedValue& known);
-  /// Learns from a suspected and a proved error. Both are in standard deviations of a view.
-  void learn(double suspected, double proved);
+  void start_with(Suspicion suspicion, const LearnedValue& known);
+  /// Learns from suspected and proved errors. Both are in standard deviations of a view.
+  void learn(const PerSuspicion& suspected, const PerSuspicion& proved);
 
   template <class Archive>
   void serialize(Archive& archive) {
@@ -50,7 +59,7 @@ class Gain {
   }
 
  private:
-  double evidence_ = 0.0, effect_ = 0.0;
+  PerSuspicion evidence_ = PerSuspicion::Zero(), effect_ = PerSuspicion::Zero();
 };
 
 /// Learns how one network errs in the lateral place of lines. Every place that is seen from far is seen again
@@ -67,10 +76,8 @@ class NetworkModel {
 
   /// Lateral standard deviation of a sample that is seen from `range_m` away.
   double stddev_m(double range_m) const;
-  /// Share of a frame's suspected pitch that is to be taken out, 0..1.
-  double pitch_gain() const { return pitch_.value(); }
-  /// Share of a frame's suspected pose error that is to be taken out, 0..1.
-  double alignment_gain() const { return alignment_.value(); }
+  /// Shares of a frame's suspected errors that are to be taken out, 0..1.
+  PerSuspicion gains() const { return gains_.values(); }
 
   /// Learns from a view whose place has proved, from near, to lie at `near_m`, in the terms of
   /// FarView::lateral_m.
@@ -81,13 +88,13 @@ class NetworkModel {
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(views_, squares_m2_, pitch_, alignment_);
+    archive(views_, squares_m2_, gains_);
   }
 
  private:
   // Sums over views; older views count less.
   std::array<double, kNodes_m.size()> views_{}, squares_m2_{};  ///< at each range
-  Gain pitch_, alignment_;
+  Gains gains_;
 };
 
 }  // namespace laneloom::lines

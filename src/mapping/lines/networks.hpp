@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -40,15 +41,21 @@ class Standpoint {
   bool paused_ = false;            ///< before that one, no view was taken for a second
 };
 
-/// The stretch of a network's frames. A vehicle pitches about where it mostly is: a stretch that stays is
-/// that of the road, whose lines draw together.
+/// The stretch of a frame, per metre ahead, in two parts.
+struct Stretch {
+  double sudden_per_m = 0.0, lasting_per_m = 0.0;
+};
+
+/// The stretch of a network's frames. A stretch that lasts may be that of a wrong pitch, or that of a road
+/// whose lines draw together.
 class PitchHistory {
  public:
-  /// The difference of a frame's stretch to those before.
-  double news(double stretch_per_m) {
-    const double news = stretch_per_m - mean_per_m_;
-    mean_per_m_ += kNewest * news;
-    return news;
+  /// The difference of a frame's stretch to those before, and the mean of these.
+  Stretch parts(double stretch_per_m) {
+    const Stretch parts{stretch_per_m - mean_per_m_,
+                        std::clamp(mean_per_m_, -kMostLasting_per_m, kMostLasting_per_m)};
+    mean_per_m_ += kNewest * parts.sudden_per_m;
+    return parts;
   }
 
   template <class Archive>
@@ -57,7 +64,8 @@ class PitchHistory {
   }
 
  private:
-  static constexpr double kNewest = 0.25;  // weight of a frame
+  static constexpr double kNewest = 0.25;              // weight of a frame
+  static constexpr double kMostLasting_per_m = 0.003;  // of a pitch; a taper's is more
   double mean_per_m_ = 0.0;
 };
 

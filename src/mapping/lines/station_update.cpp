@@ -64,14 +64,14 @@ void learn(const Observation& seen, const Viewpoint& from, Station& station, Net
   auto& views = station.far_views;
   const auto is_known = [](const FarView& view) { return view.source != FarView::kNone; };
   if (is_far ? is_known(views[ring(range_m)]) : std::ranges::none_of(views, is_known)) return;
-  const double stretched_m = geometry::left_of(seen.direction)
-                                 .dot(stretched_by(from.stretch_per_m, station.position, from.T_map_body));
-  const double misplaced_m =
-      geometry::left_of(seen.direction).dot(shifted_by(from.error, station.position, from.T_map_body));
-  const double said_m =
-      station.moved_m + seen.lateral_m + from.pitch_gain * stretched_m + from.alignment_gain * misplaced_m;
+  const Point& place = station.position;
+  const Eigen::Vector2d left = geometry::left_of(seen.direction);
+  const PerSuspicion suspected_m{left.dot(stretched_by(from.stretch.sudden_per_m, place, from.T_map_body)),
+                                 left.dot(stretched_by(from.stretch.lasting_per_m, place, from.T_map_body)),
+                                 left.dot(shifted_by(from.error, place, from.T_map_body))};
+  const double said_m = station.moved_m + seen.lateral_m + from.gains.dot(suspected_m);
   if (is_far) {
-    views[ring(range_m)] = {from.source, range_m, said_m, stretched_m, misplaced_m};
+    views[ring(range_m)] = {from.source, range_m, said_m, suspected_m};
     return;
   }
   for (const FarView& view : views)

@@ -15,12 +15,11 @@ namespace laneloom::lines {
 struct Viewpoint {
   Eigen::Isometry3d T_map_body = Eigen::Isometry3d::Identity();
   std::int64_t stamp_ns = 0;
-  std::uint32_t source = 0;               ///< number of the network
-  double news = 1.0;                      ///< weight of its evidence, 0..1; 1 is an independent view
-  double stretch_per_m = 0.0;             ///< suspected of this frame, see estimate_stretch_per_m()
-  double pitch_gain = 0.0;                ///< share of the stretch that was taken out
-  FrameError error = FrameError::Zero();  ///< suspected of the frame's pose, without the lasting part
-  double alignment_gain = 0.0;            ///< share of the error that was taken out
+  std::uint32_t source = 0;                   ///< number of the network
+  double news = 1.0;                          ///< weight of its evidence, 0..1; 1 is an independent view
+  Stretch stretch;                            ///< suspected of this frame, see estimate_stretch_per_m()
+  FrameError error = FrameError::Zero();      ///< suspected of the frame's pose, without the lasting part
+  PerSuspicion gains = PerSuspicion::Zero();  ///< shares of these that were taken out
 };
 
 /// The observation of a station by a frame. Lateral and height are those of the detection, from the station.

@@ -90,8 +90,7 @@ TEST_F(Meeting, LeftAndRightOfALineThatRanTheOtherWayAreSwapped) {
   for (Station& station : lines_[1].stations) {
     station.moved_m = 0.3;
     station.far_views[0].lateral_m = 0.2;
-    station.far_views[0].stretched_m = 0.1;
-    station.far_views[0].misplaced_m = -0.1;
+    station.far_views[0].suspected_m = {0.1, 0.2, -0.1};
   }
   joint(End::back, End::back);
   join();
@@ -101,8 +100,7 @@ TEST_F(Meeting, LeftAndRightOfALineThatRanTheOtherWayAreSwapped) {
   EXPECT_DOUBLE_EQ(last.position.x(), 20.0);
   EXPECT_DOUBLE_EQ(last.moved_m, -0.3);
   EXPECT_DOUBLE_EQ(last.far_views[0].lateral_m, -0.2);
-  EXPECT_DOUBLE_EQ(last.far_views[0].stretched_m, -0.1);
-  EXPECT_DOUBLE_EQ(last.far_views[0].misplaced_m, 0.1);
+  EXPECT_EQ(last.far_views[0].suspected_m, PerSuspicion(-0.1, -0.2, 0.1));
   EXPECT_DOUBLE_EQ(lines_[0].stations.front().moved_m, 0.0);
 }
 

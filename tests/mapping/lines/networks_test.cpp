@@ -66,30 +66,42 @@ TEST(Networks, TheOneThatWasNotHeardOfForLongestIsForgotten) {
   EXPECT_NE(networks.find("another"), nullptr);
 }
 
-TEST(PitchHistory, AStretchThatStaysIsThatOfTheRoad) {
+TEST(PitchHistory, TellsWhatIsNewFromWhatLasts) {
   PitchHistory pitch;
-  EXPECT_EQ(pitch.news(0.004), 0.004);
-  for (int i = 0; i < 30; ++i) pitch.news(0.004);
-  EXPECT_NEAR(pitch.news(0.004), 0.0, 1e-5);
-  EXPECT_NEAR(pitch.news(0.007), 0.003, 1e-5) << "the vehicle pitches, beside the taper";
+  EXPECT_EQ(pitch.parts(0.002).sudden_per_m, 0.002);
+  for (int i = 0; i < 30; ++i) pitch.parts(0.002);
+  EXPECT_NEAR(pitch.parts(0.002).sudden_per_m, 0.0, 1e-5);
+  EXPECT_NEAR(pitch.parts(0.005).sudden_per_m, 0.003, 1e-5);
+  for (int i = 0; i < 30; ++i) pitch.parts(0.002);
+  EXPECT_NEAR(pitch.parts(0.005).lasting_per_m, 0.002, 1e-5);
+}
+
+TEST(PitchHistory, MostOfATaperIsNoPitch) {
+  PitchHistory pitch;
+  for (int i = 0; i < 30; ++i) pitch.parts(-0.010);
+  const Stretch taper = pitch.parts(-0.010);
+  EXPECT_NEAR(taper.sudden_per_m, 0.0, 1e-5);
+  EXPECT_EQ(taper.lasting_per_m, -0.003);
 }
 
 TEST(Networks, StartsWithWhatTheProfileOfASourceKnows) {
   MapperConfig config;
   config.networks["front"] = {{"stddev_at_26_m", {0.4, 1000}},
                               {"pitch_gain", {0.8, 900}},
+                              {"lasting_pitch_gain", {0.6, 400}},
                               {"rate_roadedge_behind_10_m", {0.5, 700}},
                               {"confidence", {0.3, 60}}};
   Networks networks;
   const Network front = networks[networks.number("front", 1, config)];
   EXPECT_NEAR(front.lateral.stddev_m(26.0), 0.4, 1e-12);
-  EXPECT_NEAR(front.lateral.pitch_gain(), 0.8, 1e-12);
+  EXPECT_NEAR(front.lateral.gains()[kSuddenPitch], 0.8, 1e-12);
+  EXPECT_NEAR(front.lateral.gains()[kLastingPitch], 0.6, 1e-12);
   EXPECT_EQ(front.detection.rate(MarkingType::roadedge, {-15, 0, 0}), 0.5);
   EXPECT_NEAR(front.detection.belief(0.3), kUsualBelief, 1e-12);
   EXPECT_EQ(front.lateral.stddev_m(8.0), NetworkModel(config.fusion).stddev_m(8.0)) << "not in the profile";
 
   const Network rear = networks[networks.number("rear", 2, config)];
-  EXPECT_EQ(rear.lateral.pitch_gain(), 0.0) << "a profile is of one source";
+  EXPECT_EQ(rear.lateral.gains(), PerSuspicion::Zero()) << "a profile is of one source";
 }
 
 TEST(Networks, AProfileGivesTheSameNetworkAgain) {
@@ -97,7 +109,7 @@ TEST(Networks, AProfileGivesTheSameNetworkAgain) {
   Networks networks;
   Network& taught = networks[networks.number("front", 1, config)];
   for (int i = 0; i < 500; ++i) {
-    const FarView view{.source = 0, .range_m = 20.0, .lateral_m = 0.1, .stretched_m = 0.08};
+    const FarView view{.source = 0, .range_m = 20.0, .lateral_m = 0.1, .suspected_m = {0.08, 0.02, 0.0}};
     taught.lateral.learn(view, 0.0);
     taught.detection.learn_rate(MarkingType::laneline, {12, 0, 0}, i % 3 != 0);
     taught.detection.learn_confidence(0.8);

@@ -14,11 +14,11 @@ class StationUpdate : public ::testing::Test {
   StationUpdate() { networks_.number("front", 1, {}); }
 
   /// Sees the station `lateral_m` beside the origin from `range_m` before it.
-  void see(double range_m, double lateral_m, double stretch_per_m = 0.0, double pitch_gain = 0.0) {
+  void see(double range_m, double lateral_m, Stretch stretch = {}) {
     const Viewpoint from{.T_map_body = test::at(-range_m),
                          .source = 0,
-                         .stretch_per_m = stretch_per_m,
-                         .pitch_gain = pitch_gain};
+                         .stretch = stretch,
+                         .gains = networks_[0].lateral.gains()};
     const Observation seen{.lateral_m = lateral_m - station_.position.y(), .height_m = 0.0, .stddev_m = 0.1};
     learn(seen, from, station_, networks_);
     observe(seen, from, station_);
@@ -61,13 +61,18 @@ TEST_F(StationUpdate, AFarViewOfRightPlacesTeachesTrust) {
 TEST_F(StationUpdate, ThePitchIsJudgedByWhatWasSaidBeforeItWasTakenOut) {
   station_.position.y() = 4.0;
   for (int i = 0; i < 400; ++i) {
-    const double stretch_per_m = i % 2 == 0 ? 0.005 : -0.005;
-    const double wrong_m = stretched_by(stretch_per_m, {0, 4, 0}, test::at(-26.0)).y();
-    const double gain = networks_[0].lateral.pitch_gain();
-    see(26.0, 4.0 + (1.0 - gain) * wrong_m, stretch_per_m, gain);
+    const Stretch stretch{.sudden_per_m = i % 2 == 0 ? 0.005 : -0.005,
+                          .lasting_per_m = i % 3 == 0 ? 0.003 : -0.003};
+    const auto wrong_m = [](double per_m) { return stretched_by(per_m, {0, 4, 0}, test::at(-26.0)).y(); };
+    const PerSuspicion gains = networks_[0].lateral.gains();
+    see(26.0,
+        4.0 + (1.0 - gains[kSuddenPitch]) * wrong_m(stretch.sudden_per_m) -
+            gains[kLastingPitch] * wrong_m(stretch.lasting_per_m),
+        stretch);
     see(8.0, 4.0);
   }
-  EXPECT_GT(networks_[0].lateral.pitch_gain(), 0.9);
+  EXPECT_GT(networks_[0].lateral.gains()[kSuddenPitch], 0.9);
+  EXPECT_LT(networks_[0].lateral.gains()[kLastingPitch], 0.1) << "it is not true";
 }
 
 TEST_F(StationUpdate, SamplesWeighAsTheirNetworkSaysOrHasProved) {
