@@ -360,6 +360,23 @@ TEST(JsonLines, ErrorsNameFileAndLineAndReadingGoesOn) {
   EXPECT_FALSE(reader.next_frame());
 }
 
+TEST(JsonLines, LinesOfAnyLengthAreReadWhole) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.file("lines.jsonl");
+  LeftOut left_out;
+  for (const std::size_t length : {40U, 16382U, 16383U, 16384U, 32766U, 32767U, 100'000U}) {
+    std::string line = R"({"t":1,"x":")";
+    line += std::string(length - line.size() - 2, 'x') + R"("})";
+    std::ofstream(path) << line << "\n" << line << "\r\n\n" << line;
+    JsonLinesReader reader(path);
+    EXPECT_EQ(reader.next_stamped(left_out)->text, line) << length;
+    EXPECT_EQ(reader.next_stamped(left_out)->text, line + "\r") << length;
+    EXPECT_EQ(reader.next_stamped(left_out)->text, line) << length;
+    EXPECT_FALSE(reader.next_stamped(left_out)) << length;
+  }
+  EXPECT_EQ(left_out.summary(), "");
+}
+
 TEST(JsonLines, ADetectionThatIsWrongDoesNotLoseItsFrame) {
   const TemporaryFolder folder;
   const fs::path path = folder.file("frames.jsonl");

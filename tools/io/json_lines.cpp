@@ -1,6 +1,7 @@
 #include "io/json_lines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <stdexcept>
 #include <utility>
@@ -17,12 +18,12 @@ constexpr std::size_t kMaxLineBytes = std::size_t{64} << 20;
 }  // namespace
 
 JsonLinesReader::JsonLinesReader(const std::filesystem::path& path, FrameConventions conventions)
-    : path_(path), conventions_(std::move(conventions)), buffer_(std::cin.rdbuf()) {
+    : path_(path), conventions_(std::move(conventions)), text_(std::cin.rdbuf()) {
   if (path == kStandard) return;
   if (const std::string kind = file_kind(path); !kind.empty() && kind != kEmpty)
     throw std::runtime_error(path.string() + ": " + kind + "; JSON lines are needed");
   file_.open(path);
-  buffer_ = file_.rdbuf();
+  text_.rdbuf(file_.rdbuf());
   if (!file_ || std::filesystem::is_directory(path))
     throw std::runtime_error(path.string() + ": cannot be read");
   std::error_code not_a_file;  // a pipe has no size
@@ -77,20 +78,26 @@ auto JsonLinesReader::next(LeftOut& left_out, Read read)
 }
 
 bool JsonLinesReader::next_line() {
-  constexpr int kEnd = std::char_traits<char>::eof();
   do {
     line_.clear();
     ++number_;
-    int c = buffer_->sbumpc();
-    if (c == kEnd) return false;
-    for (; c != kEnd && c != '\n'; c = buffer_->sbumpc()) {
-      if (line_.size() == kMaxLineBytes) throw error("the line is too long");
-      line_.push_back(static_cast<char>(c));
-    }
-    line_ended_ = c == '\n';
+    read_line();
+    if (line_.empty() && !line_ended_) return false;
     bytes_read_ += line_.size() + 1;
   } while (line_.find_first_not_of(" \t\r") == std::string::npos);
   return true;
+}
+
+/// Reads up to the next line feed, or to the end of the file, piece by piece: a line may have no end.
+void JsonLinesReader::read_line() {
+  std::array<char, 16384> piece;
+  do {
+    if (line_.size() > kMaxLineBytes) throw error("the line is too long");
+    text_.clear();
+    text_.getline(piece.data(), piece.size());
+    line_ended_ = text_.good();
+    line_.append(piece.data(), static_cast<std::size_t>(text_.gcount()) - (line_ended_ ? 1 : 0));
+  } while (text_.fail() && !text_.eof() && !text_.bad());
 }
 
 std::runtime_error JsonLinesReader::error(const std::string& complaint) const {

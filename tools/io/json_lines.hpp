@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <istream>
 #include <map>
 #include <optional>
 #include <string>
@@ -129,12 +130,13 @@ class JsonLinesReader {
   template <typename Read>
   auto next(LeftOut& left_out, Read read) -> std::optional<std::invoke_result_t<Read, const std::string&>>;
   bool next_line();
+  void read_line();
   std::runtime_error error(const std::string& complaint) const;
 
   std::filesystem::path path_;
   FrameConventions conventions_;
   std::ifstream file_;
-  std::streambuf* buffer_;  ///< of the file or of standard input
+  std::istream text_;  ///< of the file or of standard input
   std::uintmax_t size_ = 0;
   std::uintmax_t bytes_read_ = 0;
   std::string line_;
