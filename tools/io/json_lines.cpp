@@ -90,7 +90,7 @@ bool JsonLinesReader::next_line() {
 
 /// Reads up to the next line feed, or to the end of the file, piece by piece: a line may have no end.
 void JsonLinesReader::read_line() {
-  std::array<char, 16384> piece;
+  std::array<char, 16384> piece{};
   do {
     if (line_.size() > kMaxLineBytes) throw error("the line is too long");
     text_.clear();

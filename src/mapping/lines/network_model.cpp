@@ -25,7 +25,7 @@ struct Between {
 
 Between between(double range_m) {
   const auto& nodes_m = NetworkModel::kNodes_m;
-  const auto next = std::upper_bound(nodes_m.begin() + 1, nodes_m.end() - 1, range_m);
+  const auto* const next = std::upper_bound(nodes_m.begin() + 1, nodes_m.end() - 1, range_m);
   const auto node = static_cast<std::size_t>(next - nodes_m.begin()) - 1;
   return {node, std::clamp((range_m - nodes_m[node]) / (nodes_m[node + 1] - nodes_m[node]), 0.0, 1.0)};
 }
