@@ -41,8 +41,8 @@ class Standpoint {
   bool paused_ = false;            ///< before that one, no view was taken for a second
 };
 
-/// The stretch of a frame, per metre ahead, in two parts.
-struct Stretch {
+/// The stretch of a frame, per metre ahead, in two parts: see PitchHistory::parts().
+struct PitchParts {
   double sudden_per_m = 0.0, lasting_per_m = 0.0;
 };
 
@@ -51,9 +51,9 @@ struct Stretch {
 class PitchHistory {
  public:
   /// The difference of a frame's stretch to those before, and the mean of these.
-  Stretch parts(double stretch_per_m) {
-    const Stretch parts{stretch_per_m - mean_per_m_,
-                        std::clamp(mean_per_m_, -kMostLasting_per_m, kMostLasting_per_m)};
+  PitchParts parts(double stretch_per_m) {
+    const PitchParts parts{stretch_per_m - mean_per_m_,
+                           std::clamp(mean_per_m_, -kMostLasting_per_m, kMostLasting_per_m)};
     mean_per_m_ += kNewest * parts.sudden_per_m;
     return parts;
   }

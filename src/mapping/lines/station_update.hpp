@@ -17,7 +17,7 @@ struct Viewpoint {
   std::int64_t stamp_ns = 0;
   std::uint32_t source = 0;                   ///< number of the network
   double news = 1.0;                          ///< weight of its evidence, 0..1; 1 is an independent view
-  Stretch stretch;                            ///< suspected of this frame, see estimate_stretch_per_m()
+  PitchParts stretch;                         ///< suspected of this frame, see estimate_stretch_per_m()
   FrameError error = FrameError::Zero();      ///< suspected of the frame's pose, without the lasting part
   PerSuspicion gains = PerSuspicion::Zero();  ///< shares of these that were taken out
 };

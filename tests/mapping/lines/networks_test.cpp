@@ -79,7 +79,7 @@ TEST(PitchHistory, TellsWhatIsNewFromWhatLasts) {
 TEST(PitchHistory, MostOfATaperIsNoPitch) {
   PitchHistory pitch;
   for (int i = 0; i < 30; ++i) pitch.parts(-0.010);
-  const Stretch taper = pitch.parts(-0.010);
+  const PitchParts taper = pitch.parts(-0.010);
   EXPECT_NEAR(taper.sudden_per_m, 0.0, 1e-5);
   EXPECT_EQ(taper.lasting_per_m, -0.003);
 }

@@ -14,7 +14,7 @@ class StationUpdate : public ::testing::Test {
   StationUpdate() { networks_.number("front", 1, {}); }
 
   /// Sees the station `lateral_m` beside the origin from `range_m` before it.
-  void see(double range_m, double lateral_m, Stretch stretch = {}) {
+  void see(double range_m, double lateral_m, PitchParts stretch = {}) {
     const Viewpoint from{.T_map_body = test::at(-range_m),
                          .source = 0,
                          .stretch = stretch,
@@ -61,8 +61,8 @@ TEST_F(StationUpdate, AFarViewOfRightPlacesTeachesTrust) {
 TEST_F(StationUpdate, ThePitchIsJudgedByWhatWasSaidBeforeItWasTakenOut) {
   station_.position.y() = 4.0;
   for (int i = 0; i < 400; ++i) {
-    const Stretch stretch{.sudden_per_m = i % 2 == 0 ? 0.005 : -0.005,
-                          .lasting_per_m = i % 3 == 0 ? 0.003 : -0.003};
+    const PitchParts stretch{.sudden_per_m = i % 2 == 0 ? 0.005 : -0.005,
+                             .lasting_per_m = i % 3 == 0 ? 0.003 : -0.003};
     const auto wrong_m = [](double per_m) { return stretched_by(per_m, {0, 4, 0}, test::at(-26.0)).y(); };
     const PerSuspicion gains = networks_[0].lateral.gains();
     see(26.0,
