@@ -377,6 +377,17 @@ TEST(JsonLines, LinesOfAnyLengthAreReadWhole) {
   EXPECT_EQ(left_out.summary(), "");
 }
 
+TEST(JsonLines, ALineOfMoreThan64MiBIsRefusedAndReadingGoesOn) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.file("lines.jsonl");
+  const std::string longest(std::size_t{64} << 20, 'x');
+  std::ofstream(path) << longest << "\n" << longest << "x\n" << to_json_line(full_frame());
+  JsonLinesReader reader(path);
+  EXPECT_NE(thrown_by([&] { reader.next_frame(); }), path.string() + ":1: the line is too long");
+  EXPECT_EQ(thrown_by([&] { reader.next_frame(); }), path.string() + ":2: the line is too long");
+  EXPECT_TRUE(reader.next_frame());
+}
+
 TEST(JsonLines, ADetectionThatIsWrongDoesNotLoseItsFrame) {
   const TemporaryFolder folder;
   const fs::path path = folder.file("frames.jsonl");

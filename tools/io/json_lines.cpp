@@ -92,11 +92,11 @@ bool JsonLinesReader::next_line() {
 void JsonLinesReader::read_line() {
   std::array<char, 16384> piece{};
   do {
-    if (line_.size() > kMaxLineBytes) throw error("the line is too long");
     text_.clear();
     text_.getline(piece.data(), piece.size());
     line_ended_ = text_.good();
     line_.append(piece.data(), static_cast<std::size_t>(text_.gcount()) - (line_ended_ ? 1 : 0));
+    if (line_.size() > kMaxLineBytes) throw error("the line is too long");
   } while (text_.fail() && !text_.eof() && !text_.bad());
 }
 
