@@ -87,8 +87,9 @@ void NetworkModel::learn(const FarView& view, double near_m) {
 
 NetworkProfile NetworkModel::profile() const {
   NetworkProfile profile;
+  const PerSuspicion shares = gains();
   for (const auto& [suspicion, name] : kGainNames)
-    profile[name] = {gains()[suspicion], gains_.evidence()[suspicion]};
+    profile[name] = {shares[suspicion], gains_.evidence()[suspicion]};
   for (std::size_t i = 0; i < kNodes_m.size(); ++i)
     profile[stddev_name(kNodes_m[i])] = {stddev_m(kNodes_m[i]), views_[i]};
   return profile;
