@@ -96,9 +96,9 @@ struct LaneConfig {
   double min_width_m = 2.3;           ///< narrower strips rather are no lanes
   double max_width_m = 4.5;           ///< wider strips between lines rather are no lanes
   double max_kerb_width_m = 6.5;      ///< wider strips beside a roadedge rather are no lanes
-  bool find_shoulders = true;         ///< tells shoulders from lanes
+  bool find_side_strips = true;       ///< tells shoulders and cycle lanes from lanes
   double max_shoulder_width_m = 3.2;  ///< a shoulder, between a roadedge and a lane's solid line, is narrower
-  bool publish_shoulders = false;     ///< method scored: shoulders are in the map, as lanes with that use
+  bool publish_side_strips = false;   ///< method scored: shoulders and the like are lanes with that use
   bool unmarked_roads = true;         ///< divides roads without lines into two lanes
   double min_divided_width_m = 6.5;   ///< narrower roads without lines rather are one lane
   bool one_sided_lanes = true;        ///< infers lanes beside a line with nothing else on that side

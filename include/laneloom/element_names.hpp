@@ -13,7 +13,7 @@ inline constexpr std::array kTypeNames{"laneline", "roadedge", "stopline"};
 inline constexpr std::array kStyleNames{"unknown", "solid", "dashed"};
 inline constexpr std::array kStatusNames{"tentative", "confirmed", "inferred"};
 inline constexpr std::array kDirectionNames{"unknown", "along", "against", "both"};
-inline constexpr std::array kUseNames{"unknown", "lane", "shoulder", "parking"};
+inline constexpr std::array kUseNames{"unknown", "lane", "shoulder", "parking", "cycle"};
 inline constexpr std::array kLinkageNames{"shared_boundary", "geometric_alignment", "intersection",
                                           "sd_map",          "ego_track",           "traffic"};
 inline constexpr std::array kTurnNames{"unknown", "straight", "left", "right", "u_turn"};

@@ -95,7 +95,7 @@ struct Lane {
   /// either way.
   enum class Direction : std::uint8_t { unknown, along_centerline, against_centerline, both };
   /// What the strip is for. A planner drives in lanes alone.
-  enum class Use : std::uint8_t { unknown, lane, shoulder, parking };
+  enum class Use : std::uint8_t { unknown, lane, shoulder, parking, cycle };
   ElementId id = kNoElement;
   std::vector<Border> left_borders;   ///< in order along the centerline, which they cover without overlap
   std::vector<Border> right_borders;  ///< likewise
@@ -121,8 +121,8 @@ struct Lane {
   std::vector<Border>& borders(Side side) { return side == Side::left ? left_borders : right_borders; }
   /// The border on a side beside an arc length of the centerline. Null: none was seen there.
   const Border* border_at(Side side, double arc_m) const;
-  /// Whether a planner may drive into it: it is no shoulder and no parking strip.
-  bool is_drivable() const { return use != Use::shoulder && use != Use::parking; }
+  /// Whether a planner may drive into it: it is no strip at the side of the road.
+  bool is_drivable() const { return use == Use::lane || use == Use::unknown; }
 };
 
 inline const Border* Lane::border_at(Side side, double arc_m) const {

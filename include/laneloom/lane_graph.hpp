@@ -74,8 +74,8 @@ class LaneGraph {
   const Lane* at(const Point& place) const;
 
   /// The lane that the vehicle drives in, walked in the vehicle's sense. Of overlapping lanes it is the one
-  /// with which the vehicle's heading is aligned best. A shoulder or parking strip is it only where the
-  /// vehicle is in nothing else. Empty: the vehicle is in no lane of the map.
+  /// with which the vehicle's heading is aligned best. A strip that is no lane (Lane::is_drivable())
+  /// is it only where the vehicle is in nothing else. Empty: the vehicle is in no lane of the map.
   std::optional<LanePosition> own_lane(const Eigen::Isometry3d& T_map_body) const;
 
   /// The passages from the end of a lane, in the order of the map's linkages.
@@ -83,7 +83,7 @@ class LaneGraph {
 
   /// The passages ahead, one after the other, over `reach_m` from the beginning of `lane`. Each is the best
   /// for the wished turn; once that turn was made, straight on is wished. Each lane is walked once at most,
-  /// and shoulders and parking strips never.
+  /// and strips that are no lanes never.
   std::vector<Passage> ahead(const DirectedLane& lane, Linkage::Turn wished, double reach_m) const;
 
   /// The neighbouring lane on a side at an arc length of the centerline. Side and arc length are as `lane` is

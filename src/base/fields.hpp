@@ -195,7 +195,7 @@ inline constexpr auto kLast<ElementStatus> = ElementStatus::inferred;
 template <>
 inline constexpr auto kLast<Lane::Direction> = Lane::Direction::both;
 template <>
-inline constexpr auto kLast<Lane::Use> = Lane::Use::parking;
+inline constexpr auto kLast<Lane::Use> = Lane::Use::cycle;
 template <>
 inline constexpr auto kLast<Evidence> = Evidence{31};  // every kind
 template <>

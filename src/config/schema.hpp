@@ -205,8 +205,8 @@ void visit(auto& v, Is<SectionConfig> auto& c) {
 }
 
 void visit(auto& v, Is<LaneConfig> auto& c) {
-  auto& [method, min_width_m, max_width_m, max_kerb_width_m, find_shoulders, max_shoulder_width_m,
-         publish_shoulders, unmarked_roads, min_divided_width_m, one_sided_lanes, assumed_width_m,
+  auto& [method, min_width_m, max_width_m, max_kerb_width_m, find_side_strips, max_shoulder_width_m,
+         publish_side_strips, unmarked_roads, min_divided_width_m, one_sided_lanes, assumed_width_m,
          max_width_variation_m, min_length_m, step_m, id_memory_frames] = c;
   choice(v, "method", method, kLaneMethods,
          "How lanes are found. scored: by log odds of width, styles and surroundings. paper: by the width "
@@ -216,12 +216,14 @@ void visit(auto& v, Is<LaneConfig> auto& c) {
            "Wider strips between two lines rather are no lanes.");
   v.number("max_kerb_width_m", max_kerb_width_m, {"m", 0.8, 8.5},
            "Wider strips beside a roadedge, where there is room to park, rather are no lanes.");
-  v.flag("find_shoulders", find_shoulders,
-         "Tell shoulders from lanes: narrow strips between a roadedge and the solid line of a lane.");
+  v.flag("find_side_strips", find_side_strips,
+         "Tell shoulders from lanes, which lie between a roadedge and the solid line of a lane, and cycle "
+         "lanes, "
+         "which are narrow.");
   v.number("max_shoulder_width_m", max_shoulder_width_m, {"m", 0.5, 20}, "A shoulder is narrower than this.");
-  v.flag("publish_shoulders", publish_shoulders,
-         "Publish shoulders, as lanes whose use is shoulder. A planner that does not read the use of a lane "
-         "would drive in them.");
+  v.flag("publish_side_strips", publish_side_strips,
+         "Publish shoulders, parking strips and cycle lanes, as lanes with that use. A planner that does not "
+         "read the use of a lane would drive in them.");
   v.flag("unmarked_roads", unmarked_roads,
          "Publish a wide road without a line as two lanes with an inferred boundary between them.");
   v.number("min_divided_width_m", min_divided_width_m, {"m", 1, 40},

@@ -29,6 +29,7 @@
 #include "mapping/topology/side_by_side.hpp"
 #include "mapping/topology/stoplines.hpp"
 #include "mapping/topology/street_ahead.hpp"
+#include "mapping/topology/strip_uses.hpp"
 #include "mapping/topology/traffic.hpp"
 
 namespace laneloom {
@@ -74,10 +75,10 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
       scene, config.lane, state.ids);  // III-D-3
   lanes::LaneLayout layout =
       state.lane_tracks.update(std::move(found), scene, config.lane, state.ids, log.reasons());  // ours
-  if (config.lane.publish_shoulders)
-    state.shoulders.update(scene, config.lane, state.ids, layout, log.reasons());
+  if (config.lane.publish_side_strips)
+    state.side_strips.update(scene, config.lane, state.ids, layout, log.reasons());
   else
-    layout.shoulders.clear();
+    layout.side_strips.clear();
   return log.done(Stage::lanes, std::move(layout));
 }
 
@@ -138,7 +139,7 @@ LocalMap assembled(const geometry::Scene& scene, markings::FusedMarkings fused, 
   map.lineage = lineage(before, state.published, fused.relatives);
   mark_stoplines(state.map.stoplines, map.lineage);
   mark_stoplines(map.stoplines, map.lineage);
-  std::ranges::move(road.shoulders, std::back_inserter(road.lanes));
+  std::ranges::move(road.side_strips, std::back_inserter(road.lanes));
   std::ranges::sort(road.lanes, {}, &Lane::id);
   std::ranges::move(lane_lineage(state.map.lanes, road.lanes), std::back_inserter(map.lineage));
   for (boundaries::LaneBoundary& boundary : std::move(road.boundaries).take())
@@ -179,6 +180,7 @@ void see_again(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
     map.T_map_body = T_map_body;
   }
   state.trails.keep_around(map.T_map_body.translation());
+  state.roadside.keep_around(map.T_map_body.translation());
   lead_on(sd_map, std::exchange(map.way, std::nullopt), log, state, map);
 }
 
@@ -219,6 +221,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   }
   const geometry::Scene scene = next_scene(frame, seen_from, config_, state);
   state.trails.keep_around(scene.T_map_body().translation());
+  state.roadside.keep_around(scene.T_map_body().translation());
   markings::FusedMarkings fused =
       state.fusion.update(std::move(observed), scene, config_, state.ids, log);  // III-B and III-C
   detections_unsure_ = fused.unsure;
@@ -236,6 +239,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   if (config_.evidence.ego_path) link_ego_track(scene.T_map_body(), state.ego_track, road);
   name_lanes(log.reasons(), state, road);
   meet_at_joints(road);
+  topology::tell_uses(state.roadside, state.map.lanes, road);
   std::vector<DrivenPath> paths = paths_beside(road, traffic.driven, scene, config_.lane, state);
   LocalMap map =
       log.done(Stage::linkages, assembled(scene, std::move(fused), std::move(road), config_.stopline, state));
@@ -261,7 +265,10 @@ Eigen::Isometry3d Mapper::follow_poses(const DetectionFrame& frame, const Eigen:
 }
 
 void Mapper::add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body) {
-  if (config_.evidence.traffic) state_->trails.add(in_body_frame(objects, T_map_body), T_map_body);
+  if (!config_.evidence.traffic) return;
+  const TrackedObjects seen = in_body_frame(objects, T_map_body);
+  state_->trails.add(seen, T_map_body);
+  if (config_.lane.publish_side_strips) state_->roadside.add(seen, T_map_body);
 }
 
 void Mapper::add(const NextTurn& turn, const Eigen::Isometry3d& T_map_body) {

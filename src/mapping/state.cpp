@@ -40,6 +40,7 @@ void MapperState::drive_through(const Point& place) {
 
 void MapperState::follow(const Eigen::Isometry3d& motion, const MapperConfig& config) {
   trails = {};
+  roadside = {};
   driven_paths = {};
   side.forget_course();
   move(motion, map);
@@ -50,14 +51,14 @@ void MapperState::follow(const Eigen::Isometry3d& motion, const MapperConfig& co
     fusion = Fusion(config);
     inferred = {};
     lane_tracks = {};
-    shoulders = {};
+    side_strips = {};
     ego_track = {};
     return;
   }
   lines->move(motion);
   inferred.move(motion);
   lane_tracks.move(motion);
-  shoulders.move(motion);
+  side_strips.move(motion);
 }
 
 }  // namespace laneloom

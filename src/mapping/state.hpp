@@ -10,7 +10,7 @@
 #include "mapping/lanes/inferred_memory.hpp"
 #include "mapping/lanes/known_lines.hpp"
 #include "mapping/lanes/lane_tracks.hpp"
-#include "mapping/lanes/shoulders.hpp"
+#include "mapping/lanes/side_strips.hpp"
 #include "mapping/lanes/wished_turn.hpp"
 #include "mapping/lineage.hpp"
 #include "mapping/lines/line_mapper.hpp"
@@ -18,6 +18,7 @@
 #include "mapping/pose_jumps.hpp"
 #include "mapping/topology/ego_track.hpp"
 #include "mapping/topology/traffic.hpp"
+#include "mapping/trails/roadside.hpp"
 #include "mapping/trails/trails.hpp"
 #include "mapping/voxels/voxel_mapper.hpp"
 
@@ -69,9 +70,10 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
   Fusion fusion;
   lanes::InferredMemory inferred;
   lanes::LaneTracks lane_tracks;
-  lanes::Shoulders shoulders;
+  lanes::SideStrips side_strips;
   topology::EgoTrack ego_track;
   trails::Trails trails;
+  trails::Roadside roadside;
   lanes::KnownLines driven_paths;
   topology::ObservedSide side;
   Membership published;  ///< membership in the last map
@@ -90,8 +92,8 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
 
   template <class Archive>
   void serialize(Archive& archive) {
-    archive(frame, fusion, inferred, lane_tracks, shoulders, ego_track, trails, driven_paths, side, published,
-            ids, pose_jumps, driven, turn, map);
+    archive(frame, fusion, inferred, lane_tracks, side_strips, ego_track, trails, roadside, driven_paths,
+            side, published, ids, pose_jumps, driven, turn, map);
   }
 };
 

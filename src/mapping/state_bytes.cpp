@@ -47,7 +47,7 @@ void serialize(Archive& archive, LocalMap& map) {
 
 namespace {
 
-constexpr std::uint64_t kMagic = 0x48'4d4f4f'4c4e414cULL;  // names the format and its version
+constexpr std::uint64_t kMagic = 0x49'4d4f4f'4c4e414cULL;  // names the format and its version
 
 }  // namespace
 

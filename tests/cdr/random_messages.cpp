@@ -93,7 +93,7 @@ msg::Lane RandomMessages::lane() {
   m.direction(one_of(msg::DrivingDirection::DIRECTION_BOTH));
   m.direction_probability(number());
   m.direction_evidence(evidence());
-  m.use(one_of(msg::LaneUse::USE_PARKING));
+  m.use(one_of(msg::LaneUse::USE_CYCLE));
   m.use_probability(number());
   m.section(static_cast<std::uint32_t>(whole(1000)));
   m.status(one_of(msg::ElementStatus::STATUS_INFERRED));

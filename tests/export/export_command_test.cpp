@@ -187,7 +187,7 @@ TEST_F(ExportCommand, WithoutAPlaceAMapOfPosesInUtmKeepsItsShape) {
 
 TEST_F(ExportCommand, ShouldersAreNoLanesInAnyFormat) {
   simulate("motorway");
-  std::ofstream(file("c.yaml")) << "mapper: {lane: {publish_shoulders: true}}\n";
+  std::ofstream(file("c.yaml")) << "mapper: {lane: {publish_side_strips: true}}\n";
   const std::string output = " --lanelet2 map.osm --opendrive map.xodr --geojson map.json --origin 48.1,11.5";
   ASSERT_TRUE(done("export drive.frames.jsonl" + output));
   const std::size_t lanes = simulation::load_lanelet2(file("map.osm")).lanes.size();
@@ -200,6 +200,22 @@ TEST_F(ExportCommand, ShouldersAreNoLanesInAnyFormat) {
   ASSERT_TRUE(done("export drive.frames.jsonl --config c.yaml --no-extras" + output));
   EXPECT_THAT(text("map.osm"), Not(HasSubstr("road_shoulder")));
   EXPECT_THAT(text("map.osm"), HasSubstr("emergency_lane"));
+}
+
+TEST_F(ExportCommand, CycleLanesAreNoLanesInAnyFormat) {
+  const std::string road = "--opendrive " LANELOOM_ROADS "/cycle_lanes.xodr";
+  ASSERT_TRUE(done("simulate " + road + " --frames drive.frames.jsonl --duration 20 --noise inhouse"));
+  std::ofstream(file("c.yaml")) << "mapper: {lane: {publish_side_strips: true}}\n";
+  const std::string output = " --lanelet2 map.osm --opendrive map.xodr --geojson map.json --origin 48.1,11.5";
+  ASSERT_TRUE(done("export drive.frames.jsonl --config c.yaml" + output));
+  EXPECT_THAT(text("map.osm"), HasSubstr("bicycle_lane"));
+  EXPECT_THAT(text("map.osm"), HasSubstr("participant:bicycle"));
+  EXPECT_THAT(text("map.xodr"), HasSubstr("type=\"biking\""));
+  EXPECT_THAT(text("map.json"), HasSubstr("\"kind\":\"cycle\""));
+  const simulation::Road again = simulation::load_lanelet2(file("map.osm"));
+  EXPECT_FALSE(again.lanes.empty());
+  for (const simulation::RoadLane& lane : again.lanes)
+    EXPECT_GT((lane.left.front() - lane.right.front()).norm(), 2.5);
 }
 
 TEST_F(ExportCommand, SeveralDrivesAreOneMapInTheFrameOfTheFirst) {

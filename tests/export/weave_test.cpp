@@ -79,7 +79,7 @@ TEST(Weave, ShouldersRunAsTheLanesBesideThem) {
     return marking;
   };
   MapperConfig config;
-  config.lane.publish_shoulders = true;
+  config.lane.publish_side_strips = true;
   SurveyedRoad there_and_back =
       drive(-1.75, {line_at(1, MarkingType::roadedge, 5.5, MarkingStyle::unknown),
                     line_at(2, MarkingType::laneline, 3.5, MarkingStyle::solid),

@@ -35,7 +35,7 @@ TEST_P(NoisyContract, IsKept) {
   simulation::Perception perception(road, simulation::noise_profile(noise), simulation::SensorView{}, seed);
   MapperConfig config;
   config.method = method;
-  config.lane.publish_shoulders = true;  // the lanes are the same with them
+  config.lane.publish_side_strips = true;  // the lanes are the same with them
   Mapper mapper(config);
   std::size_t lanes = 0;
   int frames = 0, overlapping = 0;

@@ -13,7 +13,7 @@ enum class LaneRole : std::uint8_t {
   oncoming,  ///< its traffic runs against the vehicle, or either way
   crossing,  ///< its traffic crosses the vehicle's way
   unknown,   ///< the direction of its traffic is not known
-  unused     ///< a shoulder or a parking strip
+  unused     ///< a strip at the side of the road
 };
 
 /// `own` is the id of the lane that the vehicle drives in; kNoElement: it drives in none. Directions are

@@ -9,7 +9,7 @@
 
 /// The quality of lanes by the metre, so that a long wrong lane counts for more than a short one.
 ///
-/// The centerlines of the published lanes, but for shoulders and parking strips, are sampled every 0.5 m
+/// The centerlines of the published lanes, but for strips at the side of the road, are sampled every 0.5 m
 /// within the range box. A sample is, in this order:
 /// - right: less than 0.5 m from the centerline of a truth lane, in intersections as well;
 /// - straddling: less than 1 m from a laneline of the truth, so that the line runs through the lane;

@@ -129,7 +129,7 @@ class Successions {
 };
 
 const char* kind_of(const RoadNetwork::Lanelet& lanelet) {
-  if (lanelet.shoulder) return "shoulder";
+  if (lanelet.is_side_strip()) return name(lanelet.use);
   return lanelet.linkage ? "linkage" : "lane";
 }
 

@@ -115,9 +115,11 @@ std::string turn_direction(const RoadNetwork& network, const RoadNetwork::Lanele
   return lanelet.turn == Turn::left ? "left" : "right";
 }
 
-/// Autoware's name of a shoulder is an extra. Lanelet2's own is another one.
+/// Autoware's name of a shoulder is an extra. Lanelet2's own is another one. Neither has one of a parking
+/// strip, where a vehicle may stop as well.
 const char* subtype(const RoadNetwork::Lanelet& lanelet, bool extras) {
-  if (!lanelet.shoulder) return "road";
+  if (!lanelet.is_side_strip()) return "road";
+  if (lanelet.use == Lane::Use::cycle) return "bicycle_lane";
   return extras ? "road_shoulder" : "emergency_lane";
 }
 
@@ -134,7 +136,8 @@ void add_lanelets(const RoadNetwork& network, const Ids& ids, bool extras, pugi:
     add_tag(relation, "subtype", subtype(lanelet, extras));
     add_tag(relation, "location", "urban");
     add_tag(relation, "one_way", lanelet.one_way ? "yes" : "no");
-    if (!lanelet.shoulder) add_tag(relation, "participant:vehicle", "yes");
+    if (!lanelet.is_side_strip()) add_tag(relation, "participant:vehicle", "yes");
+    if (lanelet.use == Lane::Use::cycle) add_tag(relation, "participant:bicycle", "yes");
     if (lanelet.turn != Linkage::Turn::unknown)
       add_tag(relation, "turn_direction", turn_direction(network, lanelet));
     add_tag(relation, "laneloom:status", name(lanelet.status));

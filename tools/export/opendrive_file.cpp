@@ -92,7 +92,9 @@ pugi::xml_node add_lane(pugi::xml_node& side, int id, const char* type) {
 }
 
 const char* lane_type(const RoadNetwork::Lanelet& lanelet) {
-  if (lanelet.shoulder) return "shoulder";
+  if (lanelet.use == Lane::Use::shoulder) return "shoulder";
+  if (lanelet.use == Lane::Use::parking) return "parking";
+  if (lanelet.use == Lane::Use::cycle) return "biking";
   return lanelet.one_way ? "driving" : "bidirectional";
 }
 

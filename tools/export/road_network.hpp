@@ -28,12 +28,14 @@ struct RoadNetwork {
   struct Lanelet {
     Side left, right;
     bool one_way = true;                          ///< else its direction is not known
-    bool shoulder = false;                        ///< no traffic runs there
+    Lane::Use use = Lane::Use::lane;              ///< of a side strip: no traffic runs there
     ElementId lane = kNoElement;                  ///< lane of the map; kNoElement: it is a linkage's lanelet
     std::optional<std::size_t> linkage;           ///< index in the map's linkages
     Linkage::Turn turn = Linkage::Turn::unknown;  ///< across an intersection; unknown: it is in none
     ElementStatus status = ElementStatus::confirmed;
     double existence_probability = -1.0;
+
+    bool is_side_strip() const { return use != Lane::Use::lane && use != Lane::Use::unknown; }
   };
   struct StopElement {
     std::size_t way = 0;

@@ -17,6 +17,7 @@
 #include "mapping/topology/intersections.hpp"
 #include "mapping/topology/linkages.hpp"
 #include "mapping/topology/stoplines.hpp"
+#include "mapping/topology/strip_uses.hpp"
 
 namespace laneloom::exports {
 namespace {
@@ -70,15 +71,16 @@ LocalMap weave(const SurveyedRoad& surveyed, const MapperConfig& config) {
       road_sections(std::move(boundaries), scene.T_map_body(), config.section);
   lanes::FoundLanes found =
       lanes::find_lanes(std::move(sections), scene.box, {surveyed.poses, {}}, {}, config.lane);
-  if (!config.lane.publish_shoulders) found.shoulders.clear();
+  if (!config.lane.publish_side_strips) found.side_strips.clear();
   lanes::LaneLayout layout = tracks.adopt(inferred.recognise(std::move(found), scene, config.lane, ids), ids);
   topology::RoadGraph road = topology::link_lanes(std::move(layout), config.linkage);
   link(surveyed, config, tracks, road);
   map.stoplines = topology::tie_stoplines(surveyed.markings, road.lanes, config.stopline);
-  road.turn_shoulders();
-  for (Lane& shoulder : road.shoulders) {
-    shoulder.id = ids.next();
-    road.lanes.push_back(std::move(shoulder));
+  road.turn_side_strips();
+  topology::tell_uses({}, {}, road);
+  for (Lane& strip : road.side_strips) {
+    strip.id = ids.next();
+    road.lanes.push_back(std::move(strip));
   }
   map.lanes = std::move(road.lanes);
   map.linkages = std::move(road.linkages);

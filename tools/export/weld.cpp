@@ -90,7 +90,7 @@ void add_lanes(const LocalMap& map, const Gates& gates, NetworkBuilder& builder)
       builder.add({.left = builder.stretch(row[k].left, row[k + 1].left),
                    .right = builder.stretch(row[k].right, row[k + 1].right),
                    .one_way = is_one_way(lane),
-                   .shoulder = !lane.is_drivable(),
+                   .use = lane.use,
                    .lane = lane.id,
                    .linkage = {},
                    .status = lane.status,

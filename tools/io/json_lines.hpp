@@ -50,9 +50,9 @@
 ///                 [[from, to], …]}, …], "right_neighbours": […], "width": 3.5, "section": 1,
 ///                 "direction": "unknown" | "along" | "against" | "both", "direction_probability": 0..1 or
 ///                 -1, "direction_evidence": ["markings", …], "use": "lane" | "shoulder" | "parking" |
-///                 "unknown", "use_probability": -1, "status": "…", "existence": -1, "evidence": ["markings"
-///                 | "edges" | "ego_path" | "traffic" | "sd_map", …], "inferred_ranges": [[from, to], …]},
-///                 …],
+///                 "cycle" | "unknown", "use_probability": -1, "status": "…", "existence": -1, "evidence":
+///                 ["markings" | "edges" | "ego_path" | "traffic" | "sd_map", …], "inferred_ranges": [[from,
+///                 to], …]}, …],
 ///      "linkages": [{"from": 1, "to": 2, "kind": "…", "turn": "…", "probability": 0..1, "evidence": […],
 ///                    "path": […]}, …],
 ///      "stoplines": [{"id": 1, "lanes": [1, …], "heading": [x, y, z]}, …],

@@ -114,7 +114,7 @@ void bind_lane(py::module_& module) {
           "What tells the direction: \"markings\", \"edges\", \"ego_path\", \"traffic\", \"sd_map\".")
       .def_property_readonly(
           "use", [](const Lane& l) { return name(l.use); },
-          "\"unknown\", \"lane\", \"shoulder\" or \"parking\".")
+          "\"unknown\", \"lane\", \"shoulder\", \"parking\" or \"cycle\".")
       .def_property_readonly(
           "use_probability", [](const Lane& l) { return l.use_probability; }, "0..1; -1: not estimated.")
       .def_property_readonly(

@@ -260,8 +260,11 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
       const bool outer = !is_open(one.room) && is_parted(cut, candidate.left, 0.0);
       one.log_odds.push_back(std::clamp(log_odds(cut, candidate, config), kLeast, kMost) +
                              (outer ? kOuterOfTwo : 0.0));
-      if (config.find_shoulders && may_be_shoulder(cut, candidate))
+      if (!config.find_side_strips) continue;
+      if (may_be_shoulder(cut, candidate))
         one.shoulder_log_odds.push_back(shoulder_log_odds(cut, candidate, config));
+      if (may_be_cycle_lane(cut, candidate))
+        one.cycle_log_odds.push_back(cycle_log_odds(cut, candidate, config));
     }
   }
   return found;

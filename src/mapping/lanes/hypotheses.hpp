@@ -22,6 +22,7 @@ struct Hypothesis {
   std::vector<std::size_t> marks;  ///< per cross-section, the mark of `other`
   std::vector<double> log_odds;    ///< per cross-section, that the lane is there
   std::vector<double> shoulder_log_odds{};  ///< likewise, that a shoulder is; empty: none is looked for
+  std::vector<double> cycle_log_odds{};     ///< likewise, that a cycle lane is
 };
 
 /// Poses of the vehicle, T_map_body.

@@ -37,7 +37,7 @@ LaneLayout laid_out(FoundLanes found) {
                     .lanes = std::move(found.lanes),
                     .forks = std::move(found.forks),
                     .denied = std::move(found.denied),
-                    .shoulders = std::move(found.shoulders)};
+                    .side_strips = std::move(found.side_strips)};
   std::vector<boundaries::LaneBoundary> added;
   for (InferredBoundary& one : found.inferred) {
     added.push_back({.marking = one.marking, .members = {one.marking.id}, .two_way = one.two_way});

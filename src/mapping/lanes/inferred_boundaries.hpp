@@ -67,7 +67,7 @@ struct FoundLanes {
   std::vector<InferredBoundary> inferred;
   std::vector<Fork> forks{};
   std::vector<DeniedStretch> denied{};  ///< where the last map had a lane
-  std::vector<Lane> shoulders{};        ///< beside the lanes
+  std::vector<Lane> side_strips{};      ///< beside the lanes: shoulders, and cycle lanes
 };
 
 /// Adds the inferred boundaries to the boundaries, and the lanes beside them to the lanes. The inferred

@@ -58,7 +58,7 @@ class Choice {
             .lanes = std::move(lanes_),
             .inferred = std::move(inferred_),
             .denied = std::move(denied_),
-            .shoulders = std::move(shoulders_)};
+            .side_strips = std::move(side_strips_)};
   }
 
  private:
@@ -76,13 +76,17 @@ class Choice {
     if (known_.contains({left_id, right_id}))
       for (double& log_odds : hypothesis.log_odds) log_odds += kKnown;
     if (!is_open(hypothesis.room) && were_two_between(hypothesis)) remember_two(hypothesis);
-    Hypothesis shoulder;
-    if (!hypothesis.shoulder_log_odds.empty()) {
-      shoulder = hypothesis;
-      shoulder.log_odds = std::exchange(hypothesis.shoulder_log_odds, {});
-    }
+    std::vector<double> of_shoulder = std::exchange(hypothesis.shoulder_log_odds, {});
+    std::vector<double> of_cycle_lane = std::exchange(hypothesis.cycle_log_odds, {});
+    if (!of_shoulder.empty()) await(as_strip(hypothesis, Lane::Use::shoulder, std::move(of_shoulder)));
+    if (!of_cycle_lane.empty()) await(as_strip(hypothesis, Lane::Use::cycle, std::move(of_cycle_lane)));
     await({.hypothesis = std::move(hypothesis)});
-    await({.hypothesis = std::move(shoulder), .use = Lane::Use::shoulder});
+  }
+
+  /// The hypothesis that no lane lies there, but a strip of another use.
+  static Waiting as_strip(Hypothesis hypothesis, Lane::Use use, std::vector<double> log_odds) {
+    hypothesis.log_odds = std::move(log_odds);
+    return {.hypothesis = std::move(hypothesis), .use = use};
   }
 
   void await(Waiting one) {
@@ -249,7 +253,7 @@ class Choice {
     lane.use = use;
     lane.section = section_of_[one.base];
     occupy(one, part);
-    (use == Lane::Use::shoulder ? shoulders_ : lanes_).push_back(std::move(lane));
+    (lane.is_drivable() ? lanes_ : side_strips_).push_back(std::move(lane));
   }
 
   void add_divided(const Hypothesis& one, std::span<const CrossSection> part) {
@@ -308,7 +312,7 @@ class Choice {
   std::vector<Lane> lanes_;
   std::vector<InferredBoundary> inferred_;
   std::vector<DeniedStretch> denied_;
-  std::vector<Lane> shoulders_;
+  std::vector<Lane> side_strips_;
 };
 
 }  // namespace

@@ -41,7 +41,7 @@ struct LaneLayout {
   std::vector<Lane> lanes;
   std::vector<Fork> forks{};  ///< between lanes beside detected boundaries
   std::vector<DeniedStretch> denied{};
-  std::vector<Lane> shoulders{};  ///< strips beside the lanes, which no lane names
+  std::vector<Lane> side_strips{};  ///< strips beside the lanes, which no lane names
 
   /// The lane of an id. Null: there is none.
   const Lane* find(ElementId id) const {

@@ -159,9 +159,9 @@ std::vector<Match> match(const LaneTrack& track, const std::vector<Strip>& strip
   Matching matching(track);
   for (const DeniedStretch& stretch : found.denied)
     matching.mark(stretch.borders, stretch.middle, &Match::is_denied);
-  for (const Lane& shoulder : found.shoulders)
-    matching.mark({shoulder.left_borders.front().boundary, shoulder.right_borders.front().boundary},
-                  shoulder.centerline, &Match::is_taken);
+  for (const Lane& strip : found.side_strips)
+    matching.mark({strip.left_borders.front().boundary, strip.right_borders.front().boundary},
+                  strip.centerline, &Match::is_taken);
   for (std::size_t s = 0; s < strips.size(); ++s) matching.consider(strips[s], s);
   return matching.take();
 }

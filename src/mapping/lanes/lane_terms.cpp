@@ -77,6 +77,14 @@ constexpr double kBesideLane = 0.5;       // the next line lies across that line
 constexpr double kBesideNoLane = -6.0;    // an edge, as across the line in the middle of a road, or nothing
 constexpr double kDrivenShoulder = -8.0;  // the vehicle drives there
 
+// Width of a cycle lane, and what lies beside it, across a line.
+constexpr std::array kCycleWidth{Knot{1.0, -4.0}, Knot{1.2, 1.0}, Knot{1.5, 2.0},
+                                 Knot{2.1, 2.0},  Knot{2.4, 0.0}, Knot{2.6, -4.0}};
+constexpr double kBesideStrip_m = 1.2;  // to the next mark: a lane, or another cycle lane
+constexpr double kAlone = -6.0;         // no such mark, as beside a line that is seen double
+constexpr double kUnsureMark = 0.5;     // log odds of the less sure mark, below those of a confirmed one
+constexpr double kSureMark = 2.0;
+
 constexpr double kAlongEdge_m = 1.2;                // distance of a line that is painted along an edge
 constexpr double kLeastWithin_m = 0.15;             // of an edge from a border
 constexpr double kLane_m = 2.2, kWideLane_m = 5.0;  // widths that rather are a lane's
@@ -246,7 +254,7 @@ double of_shoulder(const Surroundings& around, double width_m, Room room, const 
   const Mark& line = around.border(side);
   const double gap_m = around.gap_beyond_m(side);
   double sum = gap_m > kNothing_m ? kNothingBeyond : 0.0;
-  if (config.find_shoulders && room == Room::between && gap_m > kLane_m && gap_m < kWideLane_m)
+  if (config.find_side_strips && room == Room::between && gap_m > kLane_m && gap_m < kWideLane_m)
     sum += kShoulder * 0.5 * (1.0 - line.dashed) *
            std::clamp(config.max_shoulder_width_m - width_m, 0.0, kMostNarrow_m);
   return sum;
@@ -349,6 +357,25 @@ double shoulder_log_odds(const RoadCut& cut, const Candidate& candidate, const L
          kNoSolidLine + kSolidLine * solid(around.border(line)) +
          (is_beside_lane ? kBesideLane : kBesideNoLane) + (candidate.driven ? kDrivenShoulder : 0.0) +
          kSurer * bounded(std::min(around.left().log_odds, around.right().log_odds)) +
+         kEdgeInside * around.inside(true) + kLineInside * around.inside(false);
+}
+
+bool may_be_cycle_lane(const RoadCut& cut, const Candidate& candidate) {
+  return candidate.room == Room::between &&
+         !(cut.marks[candidate.left].is_edge && cut.marks[candidate.right].is_edge);
+}
+
+double cycle_log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config) {
+  const Surroundings around(cut, candidate);
+  const bool is_beside_strip = std::ranges::any_of(kSides, [&](Side side) {
+    const double gap_m = around.gap_beyond_m(side);
+    return !around.border(side).is_edge && gap_m > kBesideStrip_m && gap_m < kNothing_m;
+  });
+  const double less_sure = bounded(std::min(around.left().log_odds, around.right().log_odds));
+  // What is narrower than a lane.
+  const double as_by_default_m = width_m(cut, candidate) + kLeastWidth_m - config.min_width_m;
+  return on_curve(kCycleWidth, as_by_default_m) + (is_beside_strip ? 0.0 : kAlone) +
+         kUnsureMark * std::min(less_sure - kSureMark, 0.0) + (candidate.driven ? kDrivenShoulder : 0.0) +
          kEdgeInside * around.inside(true) + kLineInside * around.inside(false);
 }
 

@@ -92,13 +92,13 @@ void RoadGraph::rename(const std::map<ElementId, ElementId>& ids) {
   sort_linkages();
 }
 
-void RoadGraph::turn_shoulders() {
-  for (Lane& shoulder : shoulders)
+void RoadGraph::turn_side_strips() {
+  for (Lane& strip : side_strips)
     for (const Lane& lane : lanes) {
-      const std::optional<bool> against = runs_against(shoulder, lane);
+      const std::optional<bool> against = runs_against(strip, lane);
       if (!against) continue;
-      if (*against) topology::turn(shoulder);
-      shoulder.direction = lane.direction;
+      if (*against) topology::turn(strip);
+      strip.direction = lane.direction;
       break;
     }
 }

@@ -23,9 +23,9 @@ struct RoadGraph : lanes::LaneLayout {
   void turn(const std::vector<ElementId>& ids);
   /// Gives lanes other ids, by their former ones.
   void rename(const std::map<ElementId, ElementId>& ids);
-  /// Lets each shoulder run as the lane beside it does, with which it has a border in common, and gives it
+  /// Lets each side strip run as the lane beside it does, with which it has a border in common, and gives it
   /// the direction of that lane.
-  void turn_shoulders();
+  void turn_side_strips();
 };
 
 }  // namespace laneloom::topology

@@ -11,7 +11,6 @@
 namespace laneloom::trails {
 namespace {
 
-constexpr double kReach_m = 60.0;  // a tracker's positions further away err by more than half a lane
 constexpr std::size_t kMaxPoints = 64;
 constexpr std::size_t kMaxTrails = 512;  // with 64 points each, 0.9 MB
 constexpr double kStep_m = 1.0;
@@ -51,7 +50,8 @@ Eigen::Vector2d direction_at(const Polyline& points, std::size_t k) {
 void Trails::add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body) {
   std::vector<Trail> observed;
   for (const TrackedObject& object : objects.objects) {
-    if (!is_believed(object) || object.position.head<2>().norm() > kReach_m) continue;
+    const bool is_followed = followed_ == Of::vehicles ? is_believed(object) : is_believed_cyclist(object);
+    if (!is_followed || object.position.head<2>().norm() > kTrackerReach_m) continue;
     observed.push_back({.session = objects.session_id,
                         .object = object.id,
                         .points = {},
@@ -112,7 +112,7 @@ Trail* Trails::trail_of(const Trail& observed) {
 
 void Trails::keep_around(const Point& vehicle) {
   const auto is_near = [&](const Point& point) {
-    return (point - vehicle).head<2>().squaredNorm() <= kReach_m * kReach_m;
+    return (point - vehicle).head<2>().squaredNorm() <= kTrackerReach_m * kTrackerReach_m;
   };
   for (Trail& trail : trails_) {
     // What lies between two near places stays, so that no trail has a hole.

@@ -29,6 +29,9 @@ struct Trail {
   }
 };
 
+/// From the vehicle, in metres. A tracker's positions further away err by more than half a lane.
+inline constexpr double kTrackerReach_m = 60.0;
+
 /// Two points of a trail that are further apart do not follow one another.
 inline constexpr double kMaxGap_m = 10.0;
 
@@ -36,13 +39,18 @@ inline constexpr double kMaxGap_m = 10.0;
 /// surer than one step, beside which a tracker's noise is large.
 Eigen::Vector2d direction_at(const Polyline& points, std::size_t k);
 
-/// Follows the vehicles that a tracker tells of. A vehicle leaves a trail where it drives forwards. A vehicle
-/// that stands, reverses, or whose heading is not known leaves none, and neither do cyclists and pedestrians.
+/// Follows the vehicles, or the cyclists, that a tracker tells of. A vehicle leaves a trail where it drives
+/// forwards. A vehicle that stands, reverses, or whose heading is not known leaves none, and neither do
+/// pedestrians.
 ///
 /// Messages of one session must come in the order of their stamps. Where several come together, they come in
 /// the order of their stamps, and of their sessions. The order of objects within a message does not matter.
 class Trails {
  public:
+  enum class Of : std::uint8_t { vehicles, cyclists };
+  Trails() = default;
+  explicit Trails(Of followed) : followed_(followed) {}
+
   /// Takes the objects of one message, in the body frame, at the vehicle's pose at their stamp.
   void add(const TrackedObjects& objects, const Eigen::Isometry3d& T_map_body);
   /// Forgets what lies further from the vehicle than it will be of use.
@@ -63,6 +71,7 @@ class Trails {
   Trail* trail_of(const Trail& observed);
   void drop_excess(std::int64_t now_ns);
 
+  Of followed_ = Of::vehicles;
   std::vector<Trail> trails_;
   bool grown_ = false;
 };

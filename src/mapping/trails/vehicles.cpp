@@ -35,8 +35,12 @@ bool has_heading(const TrackedObject& object) { return object.heading.head<2>().
 
 }  // namespace
 
-bool is_believed(const TrackedObject& object) {
-  return is_vehicle(object) && is_sure(object) && has_heading(object);
+bool is_sure_vehicle(const TrackedObject& object) { return is_vehicle(object) && is_sure(object); }
+
+bool is_believed(const TrackedObject& object) { return is_sure_vehicle(object) && has_heading(object); }
+
+bool is_believed_cyclist(const TrackedObject& object) {
+  return object.kind == ObjectKind::bicycle && is_sure(object) && has_heading(object);
 }
 
 MovingObjects moving_objects(const TrackedObjects& objects) {

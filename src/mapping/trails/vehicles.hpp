@@ -9,8 +9,11 @@ namespace laneloom::trails {
 
 inline constexpr double kMoving_mps = 1.0;  // a parked vehicle may seem to creep
 
-/// Whether an object leaves a trail where it moves forwards.
+/// Whether an object is a vehicle, and the tracker is sure of it.
+bool is_sure_vehicle(const TrackedObject& object);
+/// Whether an object leaves a trail where it moves forwards, as a vehicle or as a cyclist.
 bool is_believed(const TrackedObject& object);
+bool is_believed_cyclist(const TrackedObject& object);
 
 /// Objects of a message that move and are not known to be no vehicles.
 struct MovingObjects {

@@ -79,7 +79,7 @@ TEST(FindLanes, NeverAcrossALineThatIsBelieved) {
 TEST(FindLanes, ShouldersAreNone) {
   EXPECT_THAT(widths({edge(2.5), solid(3.5), dashed(3.4), solid(2.6), edge(0)}), are({3.5, 3.4}));
   LaneConfig config;
-  config.find_shoulders = false;
+  config.find_side_strips = false;
   EXPECT_THAT(widths({edge(2.5), solid(3.5), dashed(3.4), solid(2.6), edge(0)}, kNowhere_m, config),
               testing::Contains(DoubleNear(2.6, 1e-6)));
 }
@@ -88,9 +88,9 @@ TEST(FindLanes, AStripIsAShoulderWhereThatIsLikelierThanALane) {
   EXPECT_THAT(widths({edge(2.8), solid(3.5), dashed(3.4), solid(0)}), are({3.5, 3.4}));
   EXPECT_THAT(widths({edge(3.1), solid(3.5), dashed(3.4), solid(0)}), are({3.1, 3.5, 3.4}));
   const FoundLanes found = find(road({edge(2.0), solid(3.5), dashed(3.4), solid(0)}));
-  ASSERT_EQ(found.shoulders.size(), 1U);
-  EXPECT_EQ(found.shoulders.front().use, Lane::Use::shoulder);
-  EXPECT_NEAR(found.shoulders.front().width_m, 2.0, 1e-6);
+  ASSERT_EQ(found.side_strips.size(), 1U);
+  EXPECT_EQ(found.side_strips.front().use, Lane::Use::shoulder);
+  EXPECT_NEAR(found.side_strips.front().width_m, 2.0, 1e-6);
 }
 
 TEST(FindLanes, AKnownLaneIsDeniedWhereItsBordersTellOfNone) {

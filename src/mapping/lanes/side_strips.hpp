@@ -13,12 +13,12 @@
 
 namespace laneloom::lanes {
 
-/// The shoulders of the map as state: strips between the line of a lane and an edge. They are followed as
+/// The strips at the side of the road as state: shoulders, parking strips, cycle lanes. They are followed as
 /// lanes are, by tracks of their own, and give way to lanes. No lane is linked with them. Ours.
-class Shoulders {
+class SideStrips {
  public:
-  /// Takes in the shoulders of a layout whose lanes are those of the map, and gives it the shoulders of the
-  /// map in their place, by ascending id. Adds to `reasons`, which may be null.
+  /// Takes in the strips of a layout whose lanes are those of the map, and gives it the strips of the map in
+  /// their place, by ascending id. Adds to `reasons`, which may be null.
   void update(const geometry::Scene& scene, const LaneConfig& config, markings::IdSource& ids,
               LaneLayout& layout, FrameReasons* reasons);
 

@@ -1,0 +1,103 @@
+#include "mapping/topology/strip_uses.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "laneloom/polyline.hpp"
+#include "mapping/geometry/levels.hpp"
+#include "mapping/geometry/reproducible.hpp"
+#include "mapping/markings/markings.hpp"
+
+namespace laneloom::topology {
+namespace {
+
+constexpr std::array kUses{Lane::Use::shoulder, Lane::Use::parking, Lane::Use::cycle};
+using LogOdds = std::array<double, kUses.size()>;
+
+// What each use says of a strip, as log odds. The weights were set by hand.
+constexpr double kSolid = 1.5;           // a shoulder lies behind a solid line, not behind a dashed one
+constexpr double kNoEdge = -4.0;         // a shoulder lies beside an edge
+constexpr double kParking = -2.0;        // few strips are for parking,
+constexpr double kParkedVehicle = 2.0;   // unless vehicles stand there. One may have broken down.
+constexpr double kLeastParking_m = 1.7;  // a vehicle's width
+constexpr double kTooNarrow = -6.0;
+constexpr double kCycleBesideEdge = -1.0;  // such strips rather are shoulders,
+constexpr double kDashed = 1.0;            // unless their line may be crossed
+constexpr double kCyclist = 4.0;
+constexpr double kMostCycle_m = 2.3;  // a cycle lane is narrower
+constexpr double kTooWide = -4.0;
+constexpr double kAsBefore = 1.0;  // the map before told that use
+constexpr std::size_t kMostWitnesses = 3;
+constexpr std::size_t kLeastRidden = 5;  // points of a trail, 1 m apart at least
+
+/// A strip, and who stands and rides there.
+class ObservedStrip {
+ public:
+  ObservedStrip(const Lane& strip, const boundaries::Boundaries& boundaries)
+      : strip_(strip), middle_(strip.centerline) {
+    for (const Side side : kSides)
+      for (const Border& border : strip.borders(side)) {
+        const boundaries::LaneBoundary* boundary = boundaries.find(border.boundary);
+        if (boundary == nullptr) continue;
+        if (boundary->is_edge())
+          has_edge_ = true;
+        else
+          dashed_m_ += markings::dashed_excess_m(boundary->marking, border.on_boundary);
+      }
+  }
+
+  /// Log odds of each use, but for a common term.
+  LogOdds uses(const trails::Roadside& roadside) const {
+    const double dashed = std::clamp(dashed_m_ / std::max(middle_.length(), 1.0), -1.0, 1.0);
+    return {-kSolid * dashed + (has_edge_ ? 0.0 : kNoEdge),
+            kParking + kParkedVehicle * counted(standing(roadside)) +
+                (strip_.width_m < kLeastParking_m ? kTooNarrow : 0.0),
+            kDashed * std::max(dashed, 0.0) + (has_edge_ ? kCycleBesideEdge : 0.0) +
+                kCyclist * counted(ridden(roadside)) + (strip_.width_m > kMostCycle_m ? kTooWide : 0.0)};
+  }
+
+ private:
+  static double counted(std::ptrdiff_t witnesses) {
+    return static_cast<double>(std::min(static_cast<std::size_t>(witnesses), kMostWitnesses));
+  }
+  bool contains(const Point& point) const {
+    const double half_width_m = 0.5 * strip_.width_m;
+    const Projection foot = middle_.project(point, half_width_m);
+    return foot.inside && foot.distance_m < half_width_m && geometry::same_level(foot.foot, point);
+  }
+  std::ptrdiff_t standing(const trails::Roadside& roadside) const {
+    return std::ranges::count_if(roadside.standing(), [&](const Point& place) { return contains(place); });
+  }
+  std::ptrdiff_t ridden(const trails::Roadside& roadside) const {
+    return std::ranges::count_if(roadside.cyclists(), [&](const trails::Trail& trail) {
+      const auto within =
+          std::ranges::count_if(trail.points, [&](const Point& point) { return contains(point); });
+      return static_cast<std::size_t>(within) >= kLeastRidden;
+    });
+  }
+
+  const Lane& strip_;
+  MeasuredPolyline middle_;
+  bool has_edge_ = false;
+  double dashed_m_ = 0.0;  ///< of its lines, less what of them is solid
+};
+
+}  // namespace
+
+void tell_uses(const trails::Roadside& roadside, const std::vector<Lane>& former, RoadGraph& road) {
+  for (Lane& strip : road.side_strips) {
+    LogOdds uses = ObservedStrip(strip, road.boundaries).uses(roadside);
+    const auto before = std::ranges::find(former, strip.id, &Lane::id);
+    for (std::size_t i = 0; i < kUses.size(); ++i)
+      if (before != former.end() && before->use == kUses.at(i)) uses.at(i) += kAsBefore;
+    const auto best = std::ranges::max_element(uses);
+    double sum = 0.0;
+    for (const double use : uses) sum += geometry::reproducible::exp(use - *best);
+    strip.use = kUses.at(static_cast<std::size_t>(best - uses.begin()));
+    strip.use_probability = 1.0 / sum;
+  }
+}
+
+}  // namespace laneloom::topology
