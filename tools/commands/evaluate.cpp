@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "commands/check_drive.hpp"
 #include "commands/commands.hpp"
@@ -22,6 +23,7 @@
 #include "io/text_file.hpp"
 #include "replay/replay.hpp"
 #include "support/progress_bar.hpp"
+#include "support/worker.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -122,17 +124,20 @@ struct Mapped {
 Mapped evaluate_mapped(const EvaluateOptions& options, const simulation::Road& truth) {
   Mapped mapped{{truth, options.range, evaluation::Subject::maps}, {}};
   std::optional<LocalMap> newest;  // another one of its stamp may follow
+  support::Worker worker;          // rates a map while the next one is made
   const auto take_newest = [&] {
-    if (newest && mapped.stamps.insert(newest->stamp_ns).second) mapped.evaluation.add(*newest);
+    if (!newest || !mapped.stamps.insert(newest->stamp_ns).second) return;
+    worker.add([&, map = *std::exchange(newest, std::nullopt)] { mapped.evaluation.add(map); });
   };
   const Config config = config::resolve_config(options.config, {});
-  replay::Replay replay(config, [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) {
+  replay::Replay replay(config, [&](PublishedMap map, std::int64_t /*log_time_ns*/) {
     if (map.map.stamp_ns <= 0) return;  // no frame was fused yet
     if (newest && newest->stamp_ns != map.map.stamp_ns) take_newest();
-    newest = map.map;
+    newest = std::move(map.map);
   });
   replay_input(options.in, config, options.strict, replay);
   take_newest();
+  worker.finish();
   mapped.stamps = moments(options.in, std::move(mapped.stamps), 0).stamps;
   return mapped;
 }

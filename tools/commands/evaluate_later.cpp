@@ -7,6 +7,7 @@
 #include "commands/read_input.hpp"
 #include "config/config_file.hpp"
 #include "replay/replay.hpp"
+#include "support/worker.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -32,12 +33,16 @@ class Pairs {
 
 void rate_replay(const LaterInputs& inputs, Pairs& pairs) {
   const Config config = config::resolve_config(inputs.config, {});
-  replay::Replay replay(config,
-                        [&](const PublishedMap& map, std::int64_t /*log_time_ns*/) { pairs.add(map.map); });
+  support::Worker worker;  // rates a map while the next one is made
+  replay::Replay replay(config, [&](PublishedMap taken, std::int64_t /*log_time_ns*/) {
+    worker.add([&, map = std::move(taken.map)] { pairs.add(map); });
+  });
   for_each_input(inputs.in, config, inputs.strict, [&](recording::RecordedMessage&& message) {
-    if (const auto* frame = std::get_if<DetectionFrame>(&message.message)) pairs.add(*frame);
+    if (const auto* seen = std::get_if<DetectionFrame>(&message.message))
+      worker.add([&, frame = *seen] { pairs.add(frame); });
     replay.add(std::move(message));
   });
+  worker.finish();
 }
 
 void rate_files(const LaterInputs& inputs, Pairs& pairs) {

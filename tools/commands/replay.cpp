@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "commands/check_drive.hpp"
 #include "commands/commands.hpp"
@@ -25,6 +26,7 @@
 #include "replay/player.hpp"
 #include "replay/replay.hpp"
 #include "support/progress_bar.hpp"
+#include "support/worker.hpp"
 
 namespace laneloom::commands {
 namespace {
@@ -82,11 +84,16 @@ ReplayResult run(const ReplayOptions& options, const std::string& config_file, c
         std::make_unique<evaluation::MapEvaluation>(*truth, config.mapper.range, evaluation::Subject::maps);
   ReplayResult result;
   result.name = config_file.empty() ? "default" : config_file;
-  const auto take_map = [&](const PublishedMap& map, std::int64_t log_time_ns) {
-    result.add(map.map);
-    if (output) output->write(map, log_time_ns);
-    if (options.verify) result.comparison.add_replayed(map);
-    if (evaluation) evaluation->add(map.map);
+  replay::MapHash hash;
+  support::Worker worker;  // writes and rates a map while the next one is made
+  const auto take_map = [&](PublishedMap taken, std::int64_t log_time_ns) {
+    worker.add([&, map = std::move(taken), log_time_ns]() mutable {
+      result.add(map.map);
+      if (output) output->write(map, log_time_ns);
+      if (options.verify) result.comparison.add_replayed(map);
+      if (evaluation) evaluation->add(map.map);
+      hash.add(std::move(map));
+    });
   };
   replay::Replay replay(config, take_map, &result.timer);
   support::ProgressBar bar;
@@ -95,14 +102,15 @@ ReplayResult run(const ReplayOptions& options, const std::string& config_file, c
   const auto next = [&] { return options.verify ? source->next() : source->next_input(); };
   while (std::optional<recording::RecordedMessage> message = next()) {
     bar.step(source->progress());
-    if (options.verify) result.add_live(message->message);
+    if (options.verify) worker.add([&, live = message->message] { result.add_live(live); });
     input.add(message->message);
     replay.add(std::move(*message));
   }
+  worker.finish();
   if (output) output->close();
   bar.clear();
   result.elapsed_s = std::chrono::duration<double>(SteadyClock::now() - start).count();
-  result.hash = replay.hash();
+  result.hash = hash.text();
   result.counters = replay.counters();
   result.pending = replay.pending();
   result.advice = advice_on(input, result, config.mapper);

@@ -68,13 +68,18 @@ void Replay::publish(const FusedFrame& fused, const LocalMap& map) {
   published.state = MapState::ok;
   published.fused_frames = {fused};
   published.map = map;
-  dds::to_cdr(published, map_frame_id_, cdr_);
-  digest_.add(cdr_);
-  dds::to_cdr(road_markings(published), map_frame_id_, cdr_);
-  digest_.add(cdr_);
   published.published_ns = now_ns_;
   published.age_s = static_cast<double>(now_ns_ - session_.newest_arrival_ns().value_or(now_ns_)) * 1e-9;
-  take_map_(published, now_ns_);
+  take_map_(std::move(published), now_ns_);
+}
+
+void MapHash::add(PublishedMap map) {
+  map.published_ns = PublishedMap().published_ns;
+  map.age_s = PublishedMap().age_s;
+  dds::to_cdr(map, map.frame_id, cdr_);
+  digest_.add(cdr_);
+  dds::to_cdr(road_markings(map), map.frame_id, cdr_);
+  digest_.add(cdr_);
 }
 
 void LiveComparison::add_live(const PublishedMap& map) {

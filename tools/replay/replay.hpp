@@ -14,7 +14,7 @@
 namespace laneloom::replay {
 
 /// Takes a map as the service would publish it.
-using MapTaker = std::function<void(const PublishedMap& map, std::int64_t log_time_ns)>;
+using MapTaker = std::function<void(PublishedMap map, std::int64_t log_time_ns)>;
 
 /// Processes recorded messages as the service did when they arrived, and gives one map per fused frame. The
 /// log times are its clock. Not thread-safe.
@@ -29,9 +29,6 @@ class Replay {
   std::size_t pending() const { return session_.pending(); }
   /// The values that were learned of each source's network.
   NetworkProfiles networks() const { return session_.mapper().profiles(); }
-  /// A hash of all maps so far, with their markings, as they go over the wire. The times of arrival are left
-  /// out.
-  std::string hash() const { return digest_.text(); }
 
  private:
   void publish(const FusedFrame& fused, const LocalMap& map);
@@ -41,6 +38,16 @@ class Replay {
   MapTaker take_map_;
   std::int64_t now_ns_ = 0;
   std::uint64_t maps_ = 0;
+};
+
+/// A hash of a replay's maps, with their markings, as they go over the wire. The times of arrival are left
+/// out. Not thread-safe.
+class MapHash {
+ public:
+  void add(PublishedMap map);
+  std::string text() const { return digest_.text(); }
+
+ private:
   Digest digest_;
   std::vector<std::uint8_t> cdr_;  // kept, so that its memory is reused
 };
