@@ -85,9 +85,10 @@ lanes::LaneLayout lanes_of(const markings::FusedMarkings& fused, const geometry:
 /// The traffic on a road, and the driving side that it keeps to, in place of the configured one.
 topology::RoadTraffic observed_traffic(const topology::RoadGraph& road, const geometry::Scene& scene,
                                        const SdMap& sd_map, MapperState& state, DirectionConfig& config) {
-  topology::RoadTraffic traffic{.beside = topology::side_by_side(road),
+  topology::RoadTraffic traffic{.beside = topology::side_by_side(road, scene.driven),
                                 .driven = topology::driven_stretches(state.trails.all(), road.lanes),
-                                .one_way = topology::one_way_shares(sd_map, road.lanes)};
+                                .one_way = topology::one_way_shares(sd_map, road.lanes),
+                                .own_way = scene.driven};
   state.side.observe(road.lanes, traffic, state.lane_tracks, state.trails.all());
   state.side.observe_passing(state.map.T_map_body.translation(), scene.T_map_body(), road,
                              state.trails.all());

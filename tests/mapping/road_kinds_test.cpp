@@ -362,25 +362,31 @@ TEST(RoadKinds, ALaneBetweenSolidLinesIsUpToFiveMetresWide) {
 }
 
 /// The vehicle's own lines are unseen. On its far side there are a lane and a strip for parking.
+void expect_not_told_to_run_along(const std::vector<Drawn>& lines, double lane_y_m, DrivingSide keeps) {
+  MapperConfig config;
+  config.direction.driving_side = keeps;
+  const LocalMap map = driven(lines, config);
+  const Lane* lane = lane_at(map, lane_y_m);
+  ASSERT_NE(lane, nullptr);
+  const bool runs_ahead = lane->centerline.back().x() > lane->centerline.front().x();
+  EXPECT_TRUE(lane->direction == Lane::Direction::unknown ||
+              (lane->direction == Lane::Direction::along_centerline && !runs_ahead));
+}
+
 TEST(RoadKinds, ALaneBeyondASolidLineIsNotToldToRunAlong) {
   for (const DrivingSide keeps : {DrivingSide::right, DrivingSide::left})
-    for (const double line_m : {3.6, 4.9, 6.5})
-      for (const double width_m : {2.8, 3.3, 3.8}) {
-        SCOPED_TRACE(testing::Message() << "line " << line_m << ", lane " << width_m);
-        const double far = keeps == DrivingSide::right ? 1.0 : -1.0;
-        MapperConfig config;
-        config.direction.driving_side = keeps;
-        const LocalMap map = driven({{kEdge, far * (line_m + width_m + 3.4)},
-                                     {MarkingType::laneline, far * (line_m + width_m)},
-                                     {MarkingType::laneline, far * line_m},
-                                     {kEdge, far * -5.1}},
-                                    config);
-        const Lane* lane = lane_at(map, far * (line_m + 0.5 * width_m));
-        ASSERT_NE(lane, nullptr);
-        const bool runs_ahead = lane->centerline.back().x() > lane->centerline.front().x();
-        EXPECT_TRUE(lane->direction == Lane::Direction::unknown ||
-                    (lane->direction == Lane::Direction::along_centerline && !runs_ahead));
-      }
+    for (const double line_m : {1.75, 3.6, 4.9, 6.5})
+      for (const double width_m : {2.8, 3.3, 3.8})
+        for (const bool own_edge_is_seen : {true, false}) {
+          SCOPED_TRACE(testing::Message() << "line " << line_m << ", lane " << width_m << ", own edge "
+                                          << (own_edge_is_seen ? "seen" : "unseen"));
+          const double far = keeps == DrivingSide::right ? 1.0 : -1.0;
+          std::vector<Drawn> lines{{kEdge, far * (line_m + width_m + 3.4)},
+                                   {MarkingType::laneline, far * (line_m + width_m)},
+                                   {MarkingType::laneline, far * line_m}};
+          if (own_edge_is_seen) lines.push_back({kEdge, far * -5.1});
+          expect_not_told_to_run_along(lines, far * (line_m + 0.5 * width_m), keeps);
+        }
 }
 
 }  // namespace

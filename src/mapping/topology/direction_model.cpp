@@ -78,13 +78,12 @@ double border_evidence(const Marking& border, const Stretch& range) {
 }
 
 /// Per lane, the log odds of its direction by the borders of the road, if traffic keeps right.
-std::vector<double> outermost_evidence(const lanes::LaneLayout& layout,
-                                       const std::vector<SideBySideLanes>& pairs) {
+std::vector<double> outermost_evidence(const lanes::LaneLayout& layout, const RoadTraffic& traffic) {
   const std::vector<Lane>& lanes = layout.lanes;
   std::vector<bool> open_left(lanes.size(), true), open_right(lanes.size(), true);
-  for (const SideBySideLanes& pair : pairs) open_right[pair.left] = open_left[pair.right] = false;
+  for (const SideBySideLanes& pair : traffic.beside) open_right[pair.left] = open_left[pair.right] = false;
   const auto evidence_of = [&](const Lane& lane, Side side) {
-    if (goes_on_beyond(layout, lane, side)) return 0.0;
+    if (goes_on_beyond(layout, lane, side, traffic.own_way)) return 0.0;
     return lanes::mean_over(lane.borders(side), [&](const Border& border) {
       return border_evidence(layout.boundaries.of(border.boundary).marking, border.on_boundary);
     });
@@ -195,7 +194,7 @@ DirectionModel direction_model(const RoadGraph& road, DrivingSide driving_side, 
   const std::vector<Lane>& lanes = road.lanes;
   const geometry::OrientedGroups groups = group(road);
   const double side = side_sign(driving_side);
-  const std::vector<double> outermost = outermost_evidence(road, traffic.beside);
+  const std::vector<double> outermost = outermost_evidence(road, traffic);
   DirectionModel model{.groups = groups,
                        .side = side,
                        .is_side_corrected = traffic.is_side_corrected,

@@ -31,7 +31,28 @@ constexpr double kMedianStep_m = 3.0;
 
 constexpr double kMaxShoulder_m = 4.5;
 constexpr double kMaxBeyond_m = 14.0;  // up to where the next boundary tells that a road goes on
-constexpr double kAlongside = 0.8;     // cosine between boundaries of one road
+constexpr double kAlongside = 0.8;     // cosine between boundaries of one road, or the own way
+constexpr double kBesideRoad_m = 8.0;  // further away from a lane's side, the vehicle drives on another road
+constexpr std::size_t kLatestPlaces = 8;  // of the own way
+
+/// Whether the vehicle drives beyond a side of a lane, on the same road. That side is not the road's border
+/// then, although no lane was found there.
+bool is_driven_beyond(const Lane& lane, Side side, std::span<const Point> own_way) {
+  const MeasuredPolyline border(side == Side::left ? lane.left : lane.right);
+  const auto latest = own_way.last(std::min(own_way.size(), kLatestPlaces));
+  for (std::size_t i = 0; i < latest.size(); ++i) {
+    const Projection foot = border.project(latest[i], kBesideRoad_m);
+    const double out_m = side == Side::left ? foot.lateral_m : -foot.lateral_m;
+    if (!foot.inside || out_m <= 0.0 || foot.distance_m >= kBesideRoad_m ||
+        !geometry::may_drive_on(foot.foot, latest[i]))
+      continue;
+    if (latest.size() == 1) return true;  // the drive begins: its direction is not known yet
+    const std::size_t from = i > 0 ? i - 1 : 0;
+    const Eigen::Vector2d ahead = (latest[from + 1] - latest[from]).head<2>().normalized();
+    if (std::abs(border.direction(foot).dot(ahead)) > kAlongside) return true;
+  }
+  return false;
+}
 
 /// Whether a boundary with `left` and `right` lanes on its two sides lies in the middle of a road. If a road
 /// has three lanes, either direction may have two of them: no boundary counts as its middle. If it has five,
@@ -65,8 +86,9 @@ double boundary_evidence(const boundaries::LaneBoundary& boundary, const Stretch
 
 class SideBySide {
  public:
-  explicit SideBySide(const lanes::LaneLayout& layout)
+  SideBySide(const lanes::LaneLayout& layout, std::span<const Point> own_way)
       : layout_(layout),
+        own_way_(own_way),
         lanes_(layout.lanes),
         boundaries_(layout.boundaries),
         left_sides_(layout.lanes.size()) {
@@ -129,8 +151,8 @@ class SideBySide {
   bool is_in_middle(std::size_t left, std::size_t right) const {
     const Beside on_left = beside(left, Side::left), on_right = beside(right, Side::right);
     return is_middle(on_left.count + 1, on_right.count + 1) &&
-           !goes_on_beyond(layout_, lanes_[on_left.last], Side::left) &&
-           !goes_on_beyond(layout_, lanes_[on_right.last], Side::right);
+           !goes_on_beyond(layout_, lanes_[on_left.last], Side::left, own_way_) &&
+           !goes_on_beyond(layout_, lanes_[on_right.last], Side::right, own_way_);
   }
 
   /// The median on the right of a lane, up to the nearest lane beyond it. Empty: there is none.
@@ -172,6 +194,7 @@ class SideBySide {
   }
 
   const lanes::LaneLayout& layout_;
+  std::span<const Point> own_way_;
   const std::vector<Lane>& lanes_;
   const boundaries::Boundaries& boundaries_;
   std::vector<MeasuredPolyline> left_sides_;  ///< of lanes that have no lane on their left
@@ -179,11 +202,13 @@ class SideBySide {
 
 }  // namespace
 
-std::vector<SideBySideLanes> side_by_side(const lanes::LaneLayout& layout) {
-  return SideBySide(layout).pairs();
+std::vector<SideBySideLanes> side_by_side(const lanes::LaneLayout& layout, std::span<const Point> own_way) {
+  return SideBySide(layout, own_way).pairs();
 }
 
-bool goes_on_beyond(const lanes::LaneLayout& layout, const Lane& lane, Side side) {
+bool goes_on_beyond(const lanes::LaneLayout& layout, const Lane& lane, Side side,
+                    std::span<const Point> own_way) {
+  if (is_driven_beyond(lane, side, own_way)) return true;
   const auto ends_road = [&](const Border& border) {
     return border.boundary == kNoElement || layout.boundaries.of(border.boundary).is_edge();
   };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "laneloom/config.hpp"
@@ -35,6 +36,7 @@ struct RoadTraffic {
   std::vector<DrivenStretch> driven;  ///< by others; in the order of the trails
   std::vector<double> one_way;        ///< as one_way_shares() tells
   bool is_side_corrected = false;     ///< traffic contradicts the configured driving side
+  std::span<const Point> own_way{};   ///< places of the vehicle, map frame, the last one last
 };
 
 /// The cosine of 30 degrees. A vehicle at a wider angle crosses a lane.
