@@ -22,6 +22,9 @@ constexpr int kFramesToDecide = 3, kFramesToWait = 12;
 // decide.
 constexpr double kLeastStep_m = 0.1, kAcceleration_mps2 = 8.0;
 constexpr double kLeastTurn_deg = 0.5, kTurnAcceleration_degps2 = 30.0;
+// Hardly any vehicle accelerates like that for longer than 0.2 s. Where frames are rare, a larger step is
+// suspected as well, but the detections have to tell more.
+constexpr double kUsualTolerance_s2 = 0.04;
 constexpr double kLever_m = 15.0;  // what a turn weighs, in metres: it moves what is seen from that far
 
 // The share of a suspected jump that may prove to be another error, as of the frame.
@@ -62,15 +65,15 @@ Eigen::Isometry3d continued(const Eigen::Isometry3d& before, const Eigen::Isomet
 }
 
 /// The vehicle's pose without the jump, in the map of before, if the detections tell that there was one.
-std::optional<Eigen::Isometry3d> pose_without(const Eigen::Isometry3d& suspected,
+std::optional<Eigen::Isometry3d> pose_without(const Eigen::Isometry3d& jump, double least_gain,
                                               const Eigen::Isometry3d& told, const MapFit& fit) {
-  const Eigen::Isometry3d predicted = suspected.inverse() * told;
+  const Eigen::Isometry3d predicted = jump.inverse() * told;
   const Eigen::Isometry3d fitted = fit.refined(predicted);
   if (apart_m(fitted, predicted) > kMostLeft * apart_m(told, predicted)) return std::nullopt;
   const double explained_m = fit.explained_m(told);
   const double gain_m = std::max(fit.explained_m(predicted) - explained_m,
                                  fit.explained_m(fitted) - fit.explained_m(fit.refined(told)));
-  if (gain_m < std::max(kLeastGain_m, kLeastGain * explained_m)) return std::nullopt;
+  if (gain_m < std::max(kLeastGain_m, least_gain * explained_m)) return std::nullopt;
   return fitted;
 }
 
@@ -94,7 +97,7 @@ std::optional<Eigen::Isometry3d> PoseJumps::find(const DetectionFrame& frame,
   const MapFit fit(frame, map_markings, T_map_body);
   if (!suspected_) return come_away(fit, pose);
   away_.reset();
-  const auto true_pose = pose_without(*suspected_, T_map_body, fit);
+  const auto true_pose = pose_without(suspected_->jump, suspected_->least_gain, T_map_body, fit);
   if (!true_pose) {
     ++frames_since_;
     if (fit.length_m() >= kLeastGain_m) ++doubtful_frames_;
@@ -107,7 +110,7 @@ std::optional<Eigen::Isometry3d> PoseJumps::find(const DetectionFrame& frame,
 }
 
 /// The motion from where the vehicle should be to where it is, if no vehicle moves like that.
-std::optional<Eigen::Isometry3d> PoseJumps::suspect(const Stamped& pose) const {
+std::optional<PoseJumps::Suspicion> PoseJumps::suspect(const Stamped& pose) const {
   if (poses_.size() < 2) return std::nullopt;
   const Stamped& last = poses_.back();
   const double step_s = seconds(pose.stamp_ns - last.stamp_ns);
@@ -119,13 +122,16 @@ std::optional<Eigen::Isometry3d> PoseJumps::suspect(const Stamped& pose) const {
   const double before_s = seconds(last.stamp_ns - before->stamp_ns);
   if (before_s <= 0.0 || step_s > kMostExtrapolated * before_s) return std::nullopt;
   const Eigen::Isometry3d expected = continued(before->transform, last.transform, step_s / before_s);
-  const double tolerance_s2 = 0.5 * step_s * (step_s + before_s);
   const double moved_m = (pose.transform.translation() - expected.translation()).head<2>().norm();
   const double turned = std::abs(cross(heading(expected), heading(pose.transform)));
-  if (moved_m < kLeastStep_m + kAcceleration_mps2 * tolerance_s2 &&
-      turned < kDegree * (kLeastTurn_deg + kTurnAcceleration_degps2 * tolerance_s2))
-    return std::nullopt;
-  return motion_between(expected, pose.transform);
+  const auto exceeds = [&](double tolerance_s2) {
+    return moved_m >= kLeastStep_m + kAcceleration_mps2 * tolerance_s2 ||
+           turned >= kDegree * (kLeastTurn_deg + kTurnAcceleration_degps2 * tolerance_s2);
+  };
+  const double tolerance_s2 = 0.5 * step_s * (step_s + before_s);
+  if (!exceeds(std::min(tolerance_s2, kUsualTolerance_s2))) return std::nullopt;
+  return Suspicion{motion_between(expected, pose.transform),
+                   exceeds(tolerance_s2) ? kLeastGain : kLeastAwayGain};
 }
 
 /// The motion by which the poses have come away, if this frame and the one before tell it.

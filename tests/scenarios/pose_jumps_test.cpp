@@ -47,10 +47,11 @@ void PrintTo(const Jump& jump, std::ostream* out) {
 
 /// The frames of a drive, and the poses that they are seen from.
 struct Frames {
-  Frames(const std::string& scenario, const std::string& noise, double duration_s, std::uint64_t seed = 1) {
+  Frames(const std::string& scenario, const std::string& noise, double duration_s, std::uint64_t seed = 1,
+         double frame_s = kFrame_s) {
     const simulation::Road road = simulation::make_scenario(scenario);
     simulation::Perception perception(road, simulation::noise_profile(noise), simulation::SensorView{}, seed);
-    for (double t_s = kFrame_s; t_s < std::min(duration_s, road.drive.duration_s()); t_s += kFrame_s) {
+    for (double t_s = frame_s; t_s < std::min(duration_s, road.drive.duration_s()); t_s += frame_s) {
       const VehiclePose pose = road.drive.pose_at(t_s);
       frames.push_back(perception.observe(pose));
       poses.push_back(transform(pose));
@@ -154,6 +155,27 @@ INSTANTIATE_TEST_SUITE_P(Roads, PoseJumps,
                          ::testing::Values(Road{"straight", "inhouse"}, Road{"curve", "inhouse"},
                                            Road{"street", "inhouse"}, Road{"town", "av2"},
                                            Road{"country_road", "av2"}, Road{"motorway", "inhouse"}));
+
+/// Two frames a second, as in some recordings. Between two of them a vehicle may turn as far as the poses
+/// jump, so that the detections alone tell.
+TEST(PoseJumpsBetweenRareFrames, MoveTheMap) {
+  for (const char* road : {"straight", "motorway", "street"}) {
+    const Frames drive(road, "none", 30.0, 1, 0.5);
+    const std::size_t at = drive.frames.size() - kFramesAfter;
+    for (const Jump& jump : {Jump{.left_m = 2.0}, Jump{.turn_deg = 2.0}, Jump{.turn_deg = -4.0}}) {
+      SCOPED_TRACE(std::string(road) + ", " + ::testing::PrintToString(jump));
+      const Eigen::Isometry3d motion = drive.poses[at] * jump.motion() * drive.poses[at].inverse();
+      Mapper mapper{MapperConfig{}}, undisturbed{MapperConfig{}};
+      for (std::size_t i = 0; i < drive.frames.size(); ++i) {
+        const Eigen::Isometry3d pose = i < at ? drive.poses[i] : motion * drive.poses[i];
+        const Seen seen{mapper.update(drive.frames[i], pose), pose};
+        const Seen usual{undisturbed.update(drive.frames[i], drive.poses[i]), drive.poses[i]};
+        EXPECT_EQ(mapper.poses_jumped(), i == at) << "frame " << i;
+        EXPECT_EQ(seen.lines().size(), usual.lines().size()) << "frame " << i;
+      }
+    }
+  }
+}
 
 /// A camera to the rear, which sees nothing, sends three frames between two of the front camera.
 TEST(PoseJumpsBetweenSources, AreDecidedByFramesThatShowLines) {
