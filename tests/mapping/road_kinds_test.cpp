@@ -361,6 +361,21 @@ TEST(RoadKinds, ALaneBetweenSolidLinesIsUpToFiveMetresWide) {
   }
 }
 
+/// One lane up to some width, two above, and one under the vehicle in between.
+TEST(RoadKinds, TheVehicleHasALaneBesideALineAtAnyWidth) {
+  for (const MarkingType left : {MarkingType::laneline, kEdge})
+    for (const MarkingType right : {MarkingType::laneline, kEdge})
+      for (double width_m = 2.4; width_m < 8.0; width_m += 0.1)
+        for (const double from_right : {0.28, 0.72}) {
+          if (left == kEdge && right == kEdge) continue;
+          SCOPED_TRACE(testing::Message() << (left == kEdge ? "edge, " : "line, ") << width_m << " m, "
+                                          << (right == kEdge ? "edge, " : "line, ") << from_right);
+          const LocalMap map = driven({{left, (1.0 - from_right) * width_m}, {right, -from_right * width_m}});
+          EXPECT_NE(lane_at(map, 0.0), nullptr);
+          EXPECT_LE(map.lanes.size(), 2U);
+        }
+}
+
 /// The vehicle's own lines are unseen. On its far side there are a lane and a strip for parking.
 void expect_not_told_to_run_along(const std::vector<Drawn>& lines, double lane_y_m, DrivingSide keeps) {
   MapperConfig config;

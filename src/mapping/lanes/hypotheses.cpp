@@ -250,6 +250,10 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
     for (std::size_t i = 0; i < places.size(); ++i) {
       auto& [cut, candidate, width, opposite] = places[i];
       candidate.driven = is_driven;
+      candidate.room_driven =
+          is_open(one.room) && std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
+            return vehicle.is_in_open(one.room, width);
+          });
       const Point& at = cut.self().point;
       candidate.here = is_driven && std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
                          return vehicle.is_near(at);

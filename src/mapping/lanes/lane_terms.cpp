@@ -49,6 +49,7 @@ constexpr double kDriven = 0.91;          // the vehicle drives in the lane
 constexpr double kDrivenEdges = 1.65;     // likewise, between two edges
 constexpr double kDrivenAcross = -0.30;   // likewise, but a mark lies within the lane
 constexpr double kLeastDriven = 0.0;      // likewise: at least, of the likelier of one lane and two
+constexpr double kLeastDrivenLine = 0.5;  // likewise, beside a line
 constexpr double kTaper = -10.00;         // change of the width, per metre
 constexpr double kGore = -6.00;           // its borders meet, and neither may be crossed from there to here
 constexpr double kMedian = -6.00;         // edges lie along the borders, within
@@ -89,6 +90,7 @@ constexpr double kAlongEdge_m = 1.2;                // distance of a line that i
 constexpr double kLeastWithin_m = 0.15;             // of an edge from a border
 constexpr double kLane_m = 2.2, kWideLane_m = 5.0;  // widths that rather are a lane's
 constexpr double kWide_m = 4.0, kWider_m = 1.0;     // a lane's width, and how much more is two lanes' rather
+constexpr double kMostDriven_m = 7.0;               // width of one lane or two that the vehicle drives in
 constexpr double kNothing_m = 11.0;                 // room in which nothing lies
 constexpr double kNear_m = 8.0;                     // distance of lines that belong to the same road
 constexpr double kMostNarrow_m = 1.5;
@@ -303,6 +305,7 @@ double of_lane(const RoadCut& cut, const Candidate& candidate, const LaneConfig&
 /// The log odds that lanes lie between the mark of an open lane and the next one on that side.
 double of_lanes_instead(const RoadCut& cut, const Candidate& open, const LaneConfig& config) {
   Candidate instead = open;
+  instead.driven = open.room_driven;
   if (open.room == Room::open_left) {
     if (++instead.left == cut.marks.size()) return -kNoLimit;
   } else {
@@ -335,10 +338,11 @@ double log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig
                     -of_lanes_instead(cut, candidate, config));
   const double sum = of_lane(cut, candidate, config);
   const Surroundings around(cut, candidate);
-  if (!candidate.driven || !is_between_edges(around) || has_mark_within(around)) return sum;
+  if (!candidate.driven || width_m(cut, candidate) > kMostDriven_m || has_mark_within(around)) return sum;
   Candidate instead = candidate;
   instead.room = candidate.room == Room::between ? Room::divided : Room::between;
-  return sum + std::max(kLeastDriven - std::max(sum, of_lane(cut, instead, config)), 0.0);
+  const double least = is_between_edges(around) ? kLeastDriven : kLeastDrivenLine;
+  return sum + std::max(least - std::max(sum, of_lane(cut, instead, config)), 0.0);
 }
 
 bool may_be_shoulder(const RoadCut& cut, const Candidate& candidate) {

@@ -24,10 +24,11 @@ struct Candidate {
   Room room = Room::between;
   std::size_t left = 0, right = 0;  ///< marks of the cross-section; the same one where a side is open
   double taper = 0.0;               ///< change of the width along the road, metres per metre
-  double parted = 0.0;  ///< between two marks, from 0 to 1: how near along the road a line parts them
-  bool driven = false;  ///< the vehicle drives in it
-  bool here = false;    ///< near this place
-  bool gore = false;    ///< its borders meet at an end of it, and neither may be crossed up to here
+  double parted = 0.0;       ///< between two marks, from 0 to 1: how near along the road a line parts them
+  bool driven = false;       ///< the vehicle drives in it
+  bool room_driven = false;  ///< open: the vehicle drives between its mark and the next one
+  bool here = false;         ///< near this place
+  bool gore = false;         ///< its borders meet at an end of it, and neither may be crossed up to here
 };
 
 /// The distance between the marks; of an open lane, the room up to the next mark. Metres.
