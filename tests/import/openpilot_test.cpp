@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "temporary_folder.hpp"
@@ -87,6 +89,29 @@ TEST_F(Openpilot, ListsBecomeTheTypesThatAreSaid) {
   ASSERT_EQ(drive.frames.at(0).detections.size(), 1u);
   EXPECT_EQ(drive.frames[0].detections[0].type, MarkingType::roadedge);
   EXPECT_THAT(drive.frames[0].detected_types, ElementsAre(MarkingType::roadedge));
+}
+
+TEST_F(Openpilot, AListThatIsNotThereIsAsAnEmptyOne) {
+  const auto changed = [](const auto& change) {
+    nlohmann::json event = nlohmann::json::parse(model(100));
+    change(event["modelV2"]);
+    return event.dump();
+  };
+  const std::map<std::string, std::size_t> lines_without{
+      {"laneLines", 2}, {"laneLineProbs", 2}, {"laneLineStds", 2}, {"roadEdges", 1}, {"roadEdgeStds", 1}};
+  for (const auto& [key, lines] : lines_without) {
+    const std::string absent = changed([&list = key](auto& model) { model.erase(list); });
+    const std::string empty = changed([&list = key](auto& model) { model[list] = nlohmann::json::array(); });
+    EXPECT_EQ(read({absent, pose(1, 0, 0), pose(200, 0, 0)}).frames.at(0).detections.size(), lines) << key;
+    const std::string told = left_out();
+    EXPECT_EQ(read({empty, pose(1, 0, 0), pose(200, 0, 0)}).frames.at(0).detections.size(), lines) << key;
+    EXPECT_EQ(told, left_out()) << key;
+  }
+  const std::string neither = changed([](auto& model) {
+    model.erase("laneLines");
+    model.erase("roadEdges");
+  });
+  EXPECT_THAT(error({neither}), HasSubstr("modelV2.laneLines: is missing"));
 }
 
 TEST_F(Openpilot, PosesAreTheSumOfTheVelocities) {

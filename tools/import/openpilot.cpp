@@ -57,6 +57,12 @@ double edge_confidence(const json& deviation_m) {
   return std::clamp(1.0 - io::number(deviation_m), 0.0, 1.0);
 }
 
+/// A list of a model. Cap'n Proto writes no list where one was never set, which is as an empty one.
+const json& list_in(const json& model, const std::string& key) {
+  static const json empty = json::array();
+  return *io::optional(model, key.c_str(), io::array).value_or(&empty);
+}
+
 const LinesOfModel kLaneLines{"laneLines", "laneLineProbs", "laneLineStds", confidence};
 const LinesOfModel kRoadEdges{"roadEdges", "roadEdgeStds", "roadEdgeStds", edge_confidence};
 
@@ -111,6 +117,9 @@ class LogReader {
                          .detected_types = types_};
     // Before its lines, so that those of a frame that is given twice are not counted again.
     if (frames_.contains(frame.stamp_ns)) throw io::JsonError("timestampEof", "a second frame of this stamp");
+    // A frame may lack one of them, but a model without both is none that is known.
+    if (!io::optional(model, kRoadEdges.lines.c_str(), io::array))
+      io::required(model, kLaneLines.lines.c_str(), io::array);
     add_lines(model, kLaneLines, place, frame);
     add_lines(model, kRoadEdges, place, frame);
     if (const auto why = session::defect(frame, GateConfig{}); !why.empty())
@@ -123,9 +132,9 @@ class LogReader {
                  DetectionFrame& frame) {
     const std::optional<MarkingType> type = classes_.at(kind.lines);
     if (!type) return;
-    const json& lines = *io::required(model, kind.lines.c_str(), io::array);
-    const json& confidences = *io::required(model, kind.confidences.c_str(), io::array);
-    const json& deviations = *io::required(model, kind.deviations.c_str(), io::array);
+    const json& lines = list_in(model, kind.lines);
+    const json& confidences = list_in(model, kind.confidences);
+    const json& deviations = list_in(model, kind.deviations);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const std::string key = kind.lines + "[" + std::to_string(i) + "]";
       const bool taken = io::take_or_leave_out(left_out_, place + ": modelV2.", key, [&] {

@@ -40,7 +40,9 @@ struct OpenpilotReading {
 /// - modelV2: timestampEof, laneLines and roadEdges (x, y, z), laneLineProbs, laneLineStds, roadEdgeStds;
 /// - livePose, or in older logs liveLocationKalman: orientationNED and velocityDevice, with their valid;
 /// - liveCalibration: rpyCalib, where calStatus is calibrated.
-/// Other events are passed over. Integers of 64 bits are numbers or texts of digits.
+/// Other events are passed over. Integers of 64 bits are numbers or texts of digits. A list of lines, of
+/// probabilities or of standard deviations that is not there is as an empty one; a modelV2 needs laneLines or
+/// roadEdges.
 ///
 /// The body frame is openpilot's calibrated frame with y and z turned round (x forward, y left, z up): its
 /// origin is the camera, so that the road lies below it by the camera's height. The map frame is level, x
