@@ -392,6 +392,23 @@ TEST_F(LogOfTwoSplits, TheOneWhosePosesCanBeReadIsTaken) {
   expect_that_val_is_taken();
 }
 
+TEST_F(LogOfTwoSplits, TheOneWhoseMapCanBeReadIsTaken) {
+  write("data/test/log/log_map_archive_x.json", one_lane_map().substr(0, 200));
+  expect_that_val_is_taken();
+}
+
+TEST_F(LogOfTwoSplits, TheOneWhoseAnnotationsCanBeReadIsTaken) {
+  std::filesystem::resize_file(file("data/test/log/annotations.feather"), 100);
+  expect_that_val_is_taken();
+}
+
+TEST_F(LogOfTwoSplits, TheOneWithoutAnnotationsIsTakenBeforeOneWhoseAnnotationsAreBroken) {
+  std::filesystem::remove(file("data/val/log/annotations.feather"));
+  std::filesystem::resize_file(file("data/test/log/annotations.feather"), 100);
+  ASSERT_TRUE(done("argoverse2 data --out drives"));
+  EXPECT_THAT(output(), HasSubstr("data/val/log: 6 poses, 0 sweeps with objects"));
+}
+
 TEST_F(ImportCommand, ALogThatIsBrokenDoesNotEndTheImportOfTheOthers) {
   for (const std::string log : {"a", "b", "c"}) {
     std::filesystem::create_directories(file("data/val"));

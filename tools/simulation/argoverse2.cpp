@@ -199,20 +199,27 @@ std::optional<std::filesystem::path> map_archive(const std::filesystem::path& lo
   return std::nullopt;
 }
 
-std::size_t number_of_poses(const std::filesystem::path& log_directory) {
-  LeftOut nothing_told;
+template <typename Read>
+bool can_be_read(Read read) {
   try {
-    return argoverse2_poses(log_directory, nothing_told).size();
+    read();
+    return true;
   } catch (const std::runtime_error&) {
-    return 0;
+    return false;
   }
 }
 
-/// What a log has. The greater one is the more complete one.
-std::tuple<bool, bool, bool, std::size_t> content(const std::filesystem::path& log_directory) {
-  const std::size_t poses = number_of_poses(log_directory);
-  return {poses > 0, map_archive(log_directory).has_value(), annotations_in(log_directory).has_value(),
-          poses};
+/// What can be read of a log: poses, a map, and whatever annotations there are; then whether there are any,
+/// and the number of poses. The greater one is the more complete one. To be there is not enough: of a file
+/// that is cut off, the copy in another split is needed.
+std::tuple<bool, bool, bool, bool, std::size_t> content(const std::filesystem::path& log_directory) {
+  LeftOut nothing_told;
+  std::vector<VehiclePose> poses;
+  const bool has_poses = can_be_read([&] { poses = argoverse2_poses(log_directory, nothing_told); });
+  const bool has_map = can_be_read([&] { load_argoverse2(log_directory, nothing_told); });
+  const bool annotations_are_sound =
+      has_poses && can_be_read([&] { argoverse2_objects(log_directory, poses, nothing_told); });
+  return {has_poses, has_map, annotations_are_sound, annotations_in(log_directory).has_value(), poses.size()};
 }
 
 void add_logs(const std::filesystem::path& directory, int depth, std::vector<std::filesystem::path>& logs) {

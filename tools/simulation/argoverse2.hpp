@@ -10,9 +10,9 @@ namespace laneloom::simulation {
 
 /// The Argoverse 2 logs in a directory, in the order of their names: the directory itself if it has a log's
 /// poses, or else those below it, as in `sensor/val/<log id>`. A log that is in several splits of a data set
-/// is taken once, from where it is the most complete: it has poses that can be read, a map, annotations, and
-/// the most poses. Throws std::runtime_error naming the directory if there is none, or a log that comes twice
-/// if `left_out` is strict.
+/// is taken once, from where it is the most complete: its poses, its map and its annotations can be read, and
+/// it has the most poses. Throws std::runtime_error naming the directory if there is none, or a log that
+/// comes twice if `left_out` is strict.
 std::vector<std::filesystem::path> argoverse2_logs(const std::filesystem::path& directory, LeftOut& left_out);
 
 /// Loads an Argoverse 2 sensor log as it is distributed: its vector map (map/log_map_archive_*.json) and the
