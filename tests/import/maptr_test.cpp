@@ -147,7 +147,8 @@ TEST_F(MapTr, WhatIsWrongIsLeftOutAndTheRestComes) {
 }
 
 TEST_F(MapTr, AValueThatIsNoNumberLosesItsLineAlone) {
-  for (const std::string value : {"NaN", "-NaN", "Infinity", "-Infinity", "null", R"("NaN")"})
+  for (const std::string value : {"NaN", "-NaN", "nan", "-nan", "NAN", "Infinity", "-Infinity", "inf", "-inf",
+                                  "-INF", "infinity", "nan.8", "-nan(ind)", "null", R"("NaN")"})
     for (const std::string& line :
          {vector("divider", "[[" + value + ",2],[3,4]]"), vector("divider", "[[1,2],[3," + value + "]]"),
           vector("divider", "[[1,2,0],[3,4," + value + "]]"), vector("divider", "[[1,2],[3,4]]", value)}) {
@@ -158,6 +159,14 @@ TEST_F(MapTr, AValueThatIsNoNumberLosesItsLineAlone) {
       EXPECT_EQ(imported.frames[1].detections.size(), 1u) << line;
       EXPECT_THAT(left_out(), HasSubstr("(first: results[0].vectors[0])")) << line;
     }
+}
+
+TEST_F(MapTr, NumbersThatAreNotFiniteAreNamedInEverySpelling) {
+  for (const std::string value : {"NaN", "-NaN", "nan", "-nan", "NAN", "Infinity", "-Infinity", "inf", "-inf",
+                                  "-INF", "infinity", R"("nan")"})
+    EXPECT_THAT(sample_error(sample("drive_1", vector("divider", "[[1,2],[3," + value + "]]"))),
+                HasSubstr("results[0].vectors[0].pts[1]: must be finite"))
+        << value;
 }
 
 TEST_F(MapTr, WhereEveryLineIsWrongNothingIsLeft) {

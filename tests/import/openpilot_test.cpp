@@ -182,7 +182,7 @@ TEST_F(Openpilot, WhatIsWrongIsNamed) {
 }
 
 TEST_F(Openpilot, WhatIsWrongIsLeftOutAndTheRestComes) {
-  const std::string nan = R"({"x": [0, 10], "y": [-1.5, NaN], "z": [1.2, 1.3]})";
+  const std::string nan = R"({"x": [0, 10], "y": [-1.5, -nan], "z": [1.2, 1.3]})";
   const std::string as_text = R"({"x": [0, 10], "y": [-1.5, "NaN"], "z": [1.2, 1.3]})";
   const OpenpilotDrive drive = read({pose(1, 0, 1), "}", model(100), model(200, nan), model(300, as_text),
                                      model(0), "{}", pose(5, 0, 1e12), pose(400, 0, 1)});

@@ -69,8 +69,11 @@ json parse_json(std::string_view text) {
     return json::parse(written.begin(), written.end(), limit_depth);
   };
   try {
-    if (text.find("NaN") == std::string_view::npos && text.find("Infinity") == std::string_view::npos)
-      return parse(text);
+    return parse(text);
+  } catch (const json::exception&) {
+    // It may be that a number that is not finite is all that is wrong.
+  }
+  try {
     return parse(quote_not_finite(text));
   } catch (const json::exception& error) {
     throw JsonError("", "is not JSON", ": " + complaint_of(error));

@@ -1,18 +1,36 @@
 #include "io/json_not_finite.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace laneloom::io {
 namespace {
 
 constexpr std::size_t kBlockBytes = 1U << 16U;
+constexpr std::string_view kNan = "nan", kInf = "inf";  // of the same length
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+char small(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool same_letters(std::string_view one, std::string_view other) {
+  return std::ranges::equal(one, other, {}, small, small);
+}
+
+std::string_view without_sign(std::string_view token) { return token.substr(token.starts_with('-') ? 1 : 0); }
+
+/// Whether a token begins as `word`, as far as both reach.
+bool begins_as(std::string_view token, std::string_view word) {
+  const std::size_t size = std::min(token.size(), word.size());
+  return same_letters(token.substr(0, size), word.substr(0, size));
+}
+
+/// Whether a character outside of texts is no part of a number or of a word.
+bool ends_token(char c) { return std::string_view(" \t\r\n,:[]{}\"").find(c) != std::string_view::npos; }
 
 }  // namespace
 
 bool is_not_finite(std::string_view text) {
-  return text == "NaN" || text == "Infinity" || text == "-Infinity";
+  const std::string_view word = without_sign(text);
+  return same_letters(word, kNan) || same_letters(word, kInf) || same_letters(word, "infinity");
 }
 
 void NotFiniteQuotes::add(char c, std::string& to) {
@@ -20,22 +38,36 @@ void NotFiniteQuotes::add(char c, std::string& to) {
     in_text_ = escaped_ || c != '"';
     escaped_ = !escaped_ && c == '\\';
     to += c;
+  } else if (ends_token(c)) {
+    end_token(to);
+    in_text_ = c == '"';
+    to += c;
+  } else {
+    add_to_token(c, to);
+  }
+}
+
+void NotFiniteQuotes::add_to_token(char c, std::string& to) {
+  if (token_ == Token::plain || token_ == Token::quoted) {
+    to += c;
     return;
   }
-  if (in_word_ && !is_letter(c)) {
-    to += '"';
-    in_word_ = false;
-  }
-  // The words of JSON itself begin with small letters.
-  if (!in_word_ && (c == 'N' || c == 'I')) {
-    to += '"';
-    in_word_ = true;
-  }
-  if (sign_held_) to += '-';
-  sign_held_ = c == '-';
-  if (sign_held_) return;
-  in_text_ = c == '"';
-  to += c;
+  token_ = Token::begins;
+  begin_ += c;
+  const std::string_view word = without_sign(begin_);
+  const bool may_be = begins_as(word, kNan) || begins_as(word, kInf);
+  if (may_be && word.size() < kNan.size()) return;
+  if (may_be) to += '"';
+  to += begin_;
+  begin_.clear();
+  token_ = may_be ? Token::quoted : Token::plain;
+}
+
+void NotFiniteQuotes::end_token(std::string& to) {
+  to += begin_;
+  begin_.clear();
+  if (token_ == Token::quoted) to += '"';
+  token_ = Token::none;
 }
 
 std::string quote_not_finite(std::string_view json) {

@@ -28,10 +28,10 @@ class OtherJson : public std::runtime_error {
 
 /// Calls visit(element) for every element of an array in a JSON file, one after the other, so that a large
 /// array need not fit into memory. The array is the whole file, or with a `key` the root object's member of
-/// that name. NaN and Infinity are read as texts. Throws std::runtime_error naming the file if it cannot be
-/// read, OtherJson if it has no such array, and DamagedJson if it is not JSON. Adds file and index of the
-/// element to a JsonError that visit() throws. Calls on_step() after each element with the share of the file
-/// that was read, 0..1.
+/// that name. NaN and Infinity, or nan and inf, are read as texts. Throws std::runtime_error naming the file
+/// if it cannot be read, OtherJson if it has no such array, and DamagedJson if it is not JSON. Adds file and
+/// index of the element to a JsonError that visit() throws. Calls on_step() after each element with the share
+/// of the file that was read, 0..1.
 void for_each_json_element(
     const std::filesystem::path& path, const std::string& key,
     const std::function<void(const nlohmann::json&)>& visit,
