@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,9 +7,12 @@
 
 #include "base/degree.hpp"
 #include "commands.hpp"
+#include "io/axes.hpp"
 #include "io/feather_writer.hpp"
 #include "recording/recording.hpp"
+#include "simulation/perception.hpp"
 #include "simulation/road.hpp"
+#include "simulation/scenarios.hpp"
 
 namespace laneloom::imports {
 namespace {
@@ -162,6 +166,72 @@ TEST_F(ImportOpenpilot, WhatCheckFindsInTheDriveIsTold) {
   EXPECT_THAT(output(), HasSubstr("drive.mcap: `laneloom check` finds:"));
   EXPECT_THAT(output(), HasSubstr("Set mapper.preprocess.min_confidence"));
   EXPECT_THAT(output(), Not(HasSubstr("qlog")));
+}
+
+/// A drive through a town as the results of a network whose points have other axes, and as own tables.
+class ImportOwnTables : public ImportCommand {
+ protected:
+  static constexpr const char* kAxes = "right-forward";
+
+  void write_drive(double duration_s) {
+    const simulation::Road road = simulation::make_scenario("town");
+    simulation::Perception perception(road, simulation::noise_profile("none"), {}, 1);
+    std::string poses = "timestamp_ns,qw,qx,qy,qz,tx_m,ty_m,tz_m\n", samples = "token,timestamp_ns\n",
+                results;
+    for (int i = 1; 0.1 * i < duration_s; ++i) {
+      VehiclePose pose = road.drive.pose_at(0.1 * i);
+      pose.stamp_ns = i * 100'000'000;
+      const auto& at = pose.position;
+      const auto& q = pose.orientation;
+      poses += fmt::format("{},{},{},{},{},{},{},{}\n", pose.stamp_ns, q.w(), q.x(), q.y(), q.z(), at.x(),
+                           at.y(), at.z());
+      samples += fmt::format("s{},{}\n", i, pose.stamp_ns);
+      results += fmt::format(R"({}{{"sample_token":"s{}","vectors":[{}]}})", results.empty() ? "" : ",", i,
+                             vectors(perception.observe(pose)));
+    }
+    write("poses.csv", poses);
+    write("samples.csv", samples);
+    write("results.json", R"({"results":[)" + results + "]}");
+  }
+  static std::string vectors(const DetectionFrame& frame) {
+    const Eigen::Matrix3d axes_from_body = io::axes_named(kAxes).transpose();
+    std::string lines;
+    for (const Detection& line : frame.detections) {
+      std::string points;
+      for (const Point& point : line.points) {
+        const Point p = axes_from_body * point;
+        points += fmt::format("{}[{},{},{}]", points.empty() ? "" : ",", p.x(), p.y(), p.z());
+      }
+      lines += fmt::format(R"({}{{"cls_name":"divider","confidence_level":0.9,"pts":[{}]}})",
+                           lines.empty() ? "" : ",", points);
+    }
+    return lines;
+  }
+  bool import_with(const std::string& options) {
+    return done("maptr --results results.json --poses poses.csv --samples samples.csv --out " +
+                fmt::format("{}.mcap", ++drives_) + options);
+  }
+
+ private:
+  int drives_ = 0;
+};
+
+TEST_F(ImportOwnTables, TheRemedyIsAnOptionOfTheSameImport) {
+  write_drive(40.0);
+  const auto names_the_axes =
+      HasSubstr("let `laneloom import maptr --axes right-forward` write the drive anew");
+  ASSERT_TRUE(import_with(""));
+  EXPECT_THAT(output(), names_the_axes);
+  ASSERT_TRUE(import_with(" --axes forward-right"));
+  EXPECT_THAT(output(), names_the_axes) << "of the points in the file, and not of those in the recording";
+  ASSERT_TRUE(import_with(" --axes right-forward"));
+  EXPECT_THAT(output(), Not(HasSubstr("laneloom check")));
+}
+
+TEST_F(ImportOwnTables, ADriveThatIsTooShortToTellIsTold) {
+  write_drive(2.0);
+  ASSERT_TRUE(import_with(""));
+  EXPECT_THAT(output(), HasSubstr("1.mcap: `laneloom check` finds:\n1. Advice: Too little is seen"));
 }
 
 TEST_F(ImportCommand, ClassesOfJsonLinesBecomeTheTypesThatAreSaid) {

@@ -215,7 +215,7 @@ Findings convention_findings(const std::vector<DetectionFrame>& frames, const Po
   const Agreement agreement(frames, poses, correction.pose_scale);
   if (!agreement.can_tell()) {
     found.push_back(
-        {"too_little",
+        {kTooLittle,
          "Too little is seen, or the vehicle drives too little, to tell whether frames fit together.",
          "Check a drive of 50 m or more, with bends.", true});
     return found;

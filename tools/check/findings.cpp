@@ -17,25 +17,25 @@ void append(Findings& to, Findings more) {
 
 /// The conventions of one source. They are put into `correction`.
 Findings source_findings(std::vector<DetectionFrame> frames, const PoseTrack& poses,
-                         const MapperConfig& mapper, Correction& correction) {
+                         const MapperConfig& mapper, const CommandFor& command_for, Correction& correction) {
   std::ranges::stable_sort(frames, {}, &DetectionFrame::stamp_ns);
   Findings found = confidence_findings(frames, mapper.preprocess, correction);
   append(found, convention_findings(frames, poses, correction));
   append(found, lane_findings(frames, poses, mapper.lane, correction));
   for (Finding& finding : found)
     if (finding.remedy.empty())
-      finding.remedy =
-          fmt::format("Mend it where it is written, or let `laneloom import frames {}` write the drive anew.",
-                      options(correction));
+      finding.remedy = fmt::format("Mend it where it is written, or let `{}` write the drive anew.",
+                                   command_for(correction));
   return found;
 }
 
 /// Calls `visit` for each source with what is found of it, and with its correction.
 template <typename Visit>
-void for_each_source(const Drive& drive, const PoseTrack& poses, const MapperConfig& mapper, Visit visit) {
+void for_each_source(const Drive& drive, const PoseTrack& poses, const MapperConfig& mapper,
+                     const CommandFor& command_for, Visit visit) {
   for (const auto& [source, frames] : drive.frames) {
     Correction correction;
-    Findings found = source_findings(frames, poses, mapper, correction);
+    Findings found = source_findings(frames, poses, mapper, command_for, correction);
     visit(source, std::move(found), correction);
   }
 }
@@ -49,10 +49,14 @@ Findings named(Findings found, const Drive& drive, const std::string& source) {
 
 }  // namespace
 
+std::string import_frames_command(const Correction& correction) {
+  return "laneloom import frames " + options(correction);
+}
+
 Findings fit_findings(const Drive& drive, const MapperConfig& mapper) {
   if (drive.poses.empty()) return {};
   Findings all;
-  for_each_source(drive, PoseTrack(drive.poses), mapper,
+  for_each_source(drive, PoseTrack(drive.poses), mapper, import_frames_command,
                   [&](const std::string& source, Findings found, const Correction& /*correction*/) {
                     append(all, named(std::move(found), drive, source));
                   });
@@ -62,7 +66,7 @@ Findings fit_findings(const Drive& drive, const MapperConfig& mapper) {
 std::map<std::string, double> sensor_offsets(const Drive& drive, const MapperConfig& mapper) {
   std::map<std::string, double> offsets;
   if (drive.poses.empty()) return offsets;
-  for_each_source(drive, PoseTrack(drive.poses), mapper,
+  for_each_source(drive, PoseTrack(drive.poses), mapper, import_frames_command,
                   [&](const std::string& source, const Findings& /*found*/, const Correction& correction) {
                     const double left_m = correction.sensor_left_m;
                     if (left_m != 0.0 && options(correction) == options({.sensor_left_m = left_m}))
@@ -79,7 +83,7 @@ Findings left_out_findings(const Drive& drive, const LeftOut& left_out) {
            "Mend it where it is written: all commands leave it out."}};
 }
 
-Findings findings(const Drive& drive, const Config& config) {
+Findings findings(const Drive& drive, const Config& config, const CommandFor& command_for) {
   if (drive.frames.empty())
     return {{"no_detections", "There are no detections.",
              "Record the topic of detections, or see laneloom doctor."}};
@@ -95,7 +99,7 @@ Findings findings(const Drive& drive, const Config& config) {
   Findings stamps, conventions;
   for (const auto& [source, frames] : drive.frames)
     append(stamps, named(frame_stamp_findings(frames, drive.poses, config.sync), drive, source));
-  for_each_source(drive, poses, config.mapper,
+  for_each_source(drive, poses, config.mapper, command_for,
                   [&](const std::string& source, Findings found, const Correction& of_source) {
                     append(conventions, named(std::move(found), drive, source));
                     correction = of_source;

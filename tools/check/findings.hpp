@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "base/left_out.hpp"
+#include "check/correction.hpp"
 #include "check/drive.hpp"
 #include "laneloom/config.hpp"
 
@@ -19,8 +21,18 @@ struct Finding {
 };
 using Findings = std::vector<Finding>;
 
-/// All that is found about each source of a drive, the likeliest cause first.
-Findings findings(const Drive& drive, const Config& config);
+/// The id of the advice that too little is seen or driven to tell whether frames fit together.
+inline constexpr const char* kTooLittle = "too_little";
+
+/// Names the command that writes a drive anew with a correction.
+using CommandFor = std::function<std::string(const Correction& correction)>;
+
+/// `laneloom import frames` with its options, which takes any drive.
+std::string import_frames_command(const Correction& correction);
+
+/// All that is found about each source of a drive, the likeliest cause first. Remedies name `command_for`.
+Findings findings(const Drive& drive, const Config& config,
+                  const CommandFor& command_for = import_frames_command);
 
 /// Whether more than a twentieth of a drive cannot be read.
 Findings left_out_findings(const Drive& drive, const LeftOut& left_out);

@@ -68,15 +68,31 @@ void check(const CheckOptions& options) {
   if (!is_sound(found)) end_with(kFoundWrong);
 }
 
+check::Drive drive_of(const std::string& path, const Config& config) {
+  const auto source =
+      replay::open_messages(path, config.dds.map_frame_id, {.conventions = {.any_confidence = true}});
+  return read_inputs(*source);
+}
+
+std::string told(const std::string& path, const check::Findings& found) {
+  return found.empty() ? "" : "laneloom: " + path + ": `laneloom check` finds:\n" + list_of(found);
+}
+
 }  // namespace
 
 std::string why_poor(const std::string& path, const Config& config) {
   if (path == io::kStandard) return {};  // standard input was read
-  const auto source =
-      replay::open_messages(path, config.dds.map_frame_id, {.conventions = {.any_confidence = true}});
-  check::Findings found = findings(read_inputs(*source), config);
+  check::Findings found = findings(drive_of(path, config), config);
   std::erase_if(found, &check::Finding::advice);
-  return found.empty() ? "" : "laneloom: " + path + ": `laneloom check` finds:\n" + list_of(found);
+  return told(path, found);
+}
+
+std::string doubts_of_import(const std::string& recording, const check::CommandFor& command_for) {
+  const Config config;
+  check::Findings found = findings(drive_of(recording, config), config, command_for);
+  // Without it, silence would be taken for agreement.
+  std::erase_if(found, [](const check::Finding& one) { return one.advice && one.id != check::kTooLittle; });
+  return told(recording, found);
 }
 
 void add_check(CLI::App& app) {

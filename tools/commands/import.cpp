@@ -31,6 +31,7 @@ namespace laneloom::commands {
 namespace {
 
 struct ResultsOptions {
+  std::string command;  ///< of laneloom import
   std::string results, out;
   std::string argoverse2, nuscenes, scene, poses, samples;
   std::string axes = "forward-left";
@@ -54,6 +55,16 @@ std::string drive_source(const ResultsOptions& options) {
 using ReadResults = imports::ImportedFrames (*)(const std::filesystem::path& results,
                                                 const imports::ResultsReading& reading);
 
+/// The command that imports the results with a correction. It has --axes alone, and for own tables.
+std::string command_with(const check::Correction& correction, const ResultsOptions& options) {
+  if (!options.poses.empty() && check::options(correction) == check::options({.axes = correction.axes})) {
+    const Eigen::Matrix3d axes = io::axes_named(correction.axes) * io::axes_named(options.axes);
+    for (const std::string& name : io::axes_names())
+      if (io::axes_named(name) == axes) return "laneloom import " + options.command + " --axes " + name;
+  }
+  return check::import_frames_command(correction);
+}
+
 void import_results(const ResultsOptions& options, ReadResults read) {
   refuse_overwriting({options.results, options.poses, options.samples}, {options.out});
   const imports::DriveLog drive =
@@ -73,7 +84,9 @@ void import_results(const ResultsOptions& options, ReadResults read) {
   if (without_pose > 0) fmt::print("left out: {} frames without poses around them\n", without_pose);
   if (imported.other_drives > 0)
     fmt::print("passed over: {} frames of other drives\n", imported.other_drives);
-  fmt::print(stderr, "{}", why_poor(options.out, {}));
+  fmt::print(stderr, "{}", doubts_of_import(options.out, [&](const check::Correction& correction) {
+               return command_with(correction, options);
+             }));
 }
 
 void add_drive(CLI::App& command, ResultsOptions& options) {
@@ -98,6 +111,7 @@ void add_results(CLI::App& app, const std::string& name, const std::string& whos
                  ReadResults read) {
   CLI::App* command = app.add_subcommand(name, "Detections of " + whose + ", and the poses of a drive");
   const auto options = std::make_shared<ResultsOptions>();
+  options->command = name;
   command->add_option("--results", options->results, "File that their evaluation wrote (" + file + ")")
       ->required();
   add_drive(*command, *options);
@@ -129,7 +143,7 @@ void import_openpilot(const OpenpilotOptions& options) {
   if (drive.invalid_frames > 0) fmt::print("left out: {} invalid frames\n", drive.invalid_frames);
   if (drive.invalid_poses > 0) fmt::print("left out: {} invalid poses\n", drive.invalid_poses);
   if (without_pose > 0) fmt::print("left out: {} frames without poses around them\n", without_pose);
-  fmt::print(stderr, "{}", why_poor(options.out, {}));
+  fmt::print(stderr, "{}", doubts_of_import(options.out));
 }
 
 void add_openpilot(CLI::App& app) {
