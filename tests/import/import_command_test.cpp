@@ -151,6 +151,15 @@ TEST_F(ImportOpenpilot, AQlogThatHasFramesIsTold) {
   ASSERT_TRUE(done("openpilot --log qlog.jsonl --out drive.mcap"));
   const auto is_told = HasSubstr("qlog.jsonl: looks like a qlog, with a frame every 2.0 s; the rlog has all");
   EXPECT_THAT(output(), is_told);
+  write("late.jsonl", pose(1) + pose(2) + model(2'000'000'000) +
+                          R"({"logMonoTime":"3","drivingModelData":{}})"
+                          "\n"
+                          R"({"logMonoTime":"4","drivingModelData":{}})"
+                          "\n"
+                          R"({"logMonoTime":"5","drivingModelData":{}})"
+                          "\n");
+  EXPECT_EQ(run("openpilot --log late.jsonl --out none.mcap"), 1);
+  EXPECT_THAT(output(), HasSubstr("late.jsonl: looks like a qlog, with 1 modelV2 beside 3 drivingModelData"));
   write("qlog.jsonl", pose(1) + pose(2) + frames);
   EXPECT_EQ(run("openpilot --log qlog.jsonl --out none.mcap"), 1);
   EXPECT_THAT(output(), is_told);

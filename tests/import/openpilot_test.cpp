@@ -18,6 +18,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr const char* kLine = R"({"x": [0, 10], "y": [-1.5, -1], "z": [1.2, 1.3], "t": ["NaN", 0]})";
 constexpr const char* kEdge = R"({"x": [0, 10], "y": [4, 4], "z": [1.2, 1.2], "t": []})";
@@ -274,6 +275,29 @@ TEST_F(Openpilot, LinesWithoutAProbabilityAreLeftOut) {
   EXPECT_EQ(drive.frames.at(0).detections.size(), 3u) << "the first, and two road edges";
   EXPECT_EQ(left_out(),
             "2 x laneLines[]: has no value in laneLineProbs (first: line 2: modelV2.laneLines[1])");
+}
+
+TEST_F(Openpilot, ALogThatIsCutOffInItsFirstModelIsNoQlog) {
+  const std::string cut = model(100).substr(0, 200);
+  const std::string smaller = R"({"logMonoTime": "7", "drivingModelData": {"frameId": 1}})"
+                              "\n";
+  const auto complaint = [&](const std::string& text) { return thrown_by([&] { read_text(text); }); };
+  for (const std::string& before : {pose(1, 0, 1) + "\n", pose(1, 0, 1) + "\n" + smaller}) {
+    EXPECT_THAT(complaint(before + cut), HasSubstr("has no modelV2 before the place where it is cut off"));
+    EXPECT_THAT(complaint(before + cut), Not(HasSubstr("qlog")));
+  }
+  EXPECT_THAT(complaint(smaller + smaller + cut), HasSubstr("is a qlog: it has drivingModelData"));
+}
+
+TEST_F(Openpilot, ALogWithFewModelsBesideManySmallerOnesLooksLikeAQlog) {
+  const std::string smaller = R"({"logMonoTime": "7", "drivingModelData": {"frameId": 1}})";
+  const std::vector<std::string> whole{pose(1, 0, 1), model(100), model(150),
+                                       smaller,       smaller,    pose(200, 0, 1)};
+  EXPECT_EQ(why_qlog(read(whole)), "");
+  std::vector<std::string> qlog{pose(1, 0, 1), model(100), pose(200, 0, 1)};
+  qlog.insert(qlog.end(), 20, smaller);
+  EXPECT_EQ(why_qlog(read(qlog)),
+            "looks like a qlog, with 1 modelV2 beside 20 drivingModelData; the rlog has all frames");
 }
 
 TEST_F(Openpilot, FilesOfAnotherKindAreNamed) {

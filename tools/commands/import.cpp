@@ -134,7 +134,7 @@ void import_openpilot(const OpenpilotOptions& options) {
     return imports::read_openpilot(options.log,
                                    {left_out, options.classes, [&](double share) { bar.step(share); }});
   });
-  const std::string qlog = imports::why_qlog(drive.frames);
+  const std::string qlog = imports::why_qlog(drive);
   if (!qlog.empty()) fmt::print(stderr, "laneloom: {}: {}\n", options.log, qlog);
   const std::size_t without_pose = imports::drop_frames_without_pose(drive.frames, drive.poses);
   if (drive.frames.empty()) throw std::runtime_error(options.log + ": no frame is within the poses");

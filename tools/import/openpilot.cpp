@@ -27,6 +27,7 @@ using nlohmann::json;
 constexpr const char* kNeeded =
     "the rlog is needed, as JSON with one event a line (capnp convert --short binary:json)";
 constexpr double kMostBetweenFrames_s = 0.5;  // a log has 20 frames a second
+constexpr double kFewestModels = 0.5;         // for each drivingModelData
 
 /// Reads an integer of 64 bits, which Cap'n Proto writes as a text.
 std::int64_t long_integer(const json& value) {
@@ -76,7 +77,7 @@ class LogReader {
     if (!event.is_object()) throw io::JsonError("must be an object");
     const std::int64_t stamp_ns = io::required(event, "logMonoTime", long_integer);
     has_events_ = true;
-    has_driving_model_ = has_driving_model_ || event.contains("drivingModelData");
+    if (event.contains("drivingModelData")) ++drive_.driving_models;
     const bool valid = io::optional(event, "valid", io::boolean).value_or(true);
     io::optional(event, "modelV2", [&](const json& model) { return read_model(model, valid, place); });
     for (const char* name : {"livePose", "liveLocationKalman"})
@@ -86,6 +87,9 @@ class LogReader {
       return true;
     });
   }
+
+  /// Takes note that the log ends within an event.
+  void cut_off() { cut_off_ = true; }
 
   OpenpilotDrive finish() && {
     for (auto& [stamp_ns, frame] : frames_) drive_.frames.push_back(std::move(frame));
@@ -100,14 +104,16 @@ class LogReader {
  private:
   std::string why_no_frames() const {
     if (!has_events_) return std::string("has no event of openpilot; ") + kNeeded;
-    if (has_model_) return "has no valid modelV2";
-    if (has_driving_model_)
+    if (drive_.models > 0) return "has no valid modelV2";
+    // In an rlog, one may come before the first modelV2, in which the log is cut off.
+    if (drive_.driving_models > (cut_off_ ? 1U : 0U))
       return std::string("is a qlog: it has drivingModelData, and no modelV2; ") + kNeeded;
+    if (cut_off_) return "has no modelV2 before the place where it is cut off";
     return std::string("has no modelV2, as qlogs have none; ") + kNeeded;
   }
 
   bool read_model(const json& model, bool valid, const std::string& place) {
-    has_model_ = true;
+    ++drive_.models;
     if (!valid) {
       ++drive_.invalid_frames;
       return false;
@@ -163,7 +169,7 @@ class LogReader {
   std::map<std::int64_t, DetectionFrame> frames_;  ///< by stamp, as logs are not in its order
   std::size_t wrong_lines_ = 0;
   OpenpilotOdometry odometry_;
-  bool has_events_ = false, has_model_ = false, has_driving_model_ = false;
+  bool has_events_ = false, cut_off_ = false;
 };
 
 /// Reads a line. `is_last`: nothing comes behind it, and not even its end.
@@ -174,6 +180,7 @@ void read_line(const std::string& line, bool is_last, const std::string& place, 
     event = io::parse_json(line);
   } catch (const io::JsonError& error) {
     if (left_out.strict()) throw;
+    if (is_last) log.cut_off();
     left_out.add(is_last ? "the last line is cut off" : error.reason(), place);
     return;
   }
@@ -206,10 +213,15 @@ const Classes& openpilot_classes() {
   return classes;
 }
 
-std::string why_qlog(const std::vector<DetectionFrame>& frames) {
+std::string why_qlog(const OpenpilotDrive& drive) {
+  // The model writes both of them for each picture. A qlog has the smaller one.
+  if (kFewestModels * static_cast<double>(drive.driving_models) > static_cast<double>(drive.models))
+    return fmt::format(
+        "looks like a qlog, with {} modelV2 beside {} drivingModelData; the rlog has all frames",
+        drive.models, drive.driving_models);
   Distribution gaps_s;
-  for (std::size_t i = 1; i < frames.size(); ++i)
-    gaps_s.add(seconds(frames[i].stamp_ns - frames[i - 1].stamp_ns));
+  for (std::size_t i = 1; i < drive.frames.size(); ++i)
+    gaps_s.add(seconds(drive.frames[i].stamp_ns - drive.frames[i - 1].stamp_ns));
   const double usual_s = gaps_s.quantile(0.5);
   if (!(usual_s > kMostBetweenFrames_s)) return {};
   return fmt::format("looks like a qlog, with a frame every {:.1f} s; the rlog has all frames", usual_s);

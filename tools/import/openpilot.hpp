@@ -18,6 +18,8 @@ struct OpenpilotDrive {
   std::vector<VehiclePose> poses;      ///< stamps ascend
   std::size_t invalid_frames = 0;      ///< number that openpilot marks as not valid; they are left out
   std::size_t invalid_poses = 0;       ///< likewise
+  std::size_t models = 0;              ///< number of modelV2 in the log, also of those that are left out
+  std::size_t driving_models = 0;      ///< number of drivingModelData, of which qlogs have more
 };
 
 /// The lists of lines in a log, and what they become.
@@ -63,6 +65,6 @@ struct OpenpilotReading {
 OpenpilotDrive read_openpilot(const std::filesystem::path& path, const OpenpilotReading& reading);
 
 /// What speaks for a qlog, which has few of the frames of a log. Empty: the frames are as many as a log has.
-std::string why_qlog(const std::vector<DetectionFrame>& frames);
+std::string why_qlog(const OpenpilotDrive& drive);
 
 }  // namespace laneloom::imports
