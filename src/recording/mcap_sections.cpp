@@ -15,6 +15,7 @@ constexpr std::uint64_t kMaxLooseBytes = 1U << 20U;
 constexpr std::size_t kLogTimeOffset = 6;  // in a message
 /// The most that comes before the records of a chunk: times, size, CRC, the name of a compression, length.
 constexpr std::size_t kChunkHeaderBytes = 3 * 8 + 4 + (4 + 4) + 8;
+constexpr auto kLastOpcode = static_cast<std::uint8_t>(McapOpcode::data_end);
 constexpr std::size_t kMaxDamages = 1000;  // more are not worth memory
 
 struct Record {
@@ -38,7 +39,7 @@ class Walk {
       try {
         offset = take_at(start, start == first);
       } catch (const Damage& damage) {
-        offset = next_chunk(start + 1);
+        offset = next_place(start + 1);
         add(damage);
       }
     }
@@ -56,7 +57,7 @@ class Walk {
     const auto record = record_at(offset);
     if (!record) {
       if (!contents_.cut_off) fail(offset, "there is no footer");
-      if (next_chunk(offset + 1)) fail(offset, "a record that is longer than the file, or none");
+      if (next_place(offset + 1)) fail(offset, "a record that is longer than the file, or none");
       return std::nullopt;
     }
     if (is_first != (record->opcode == McapOpcode::header)) fail(offset, "a header is expected at the start");
@@ -64,9 +65,7 @@ class Walk {
       if (!contents_.cut_off && record->end() != end_) fail(offset, "a footer that is not at the end");
       return std::nullopt;
     }
-    // With a wrong length, what comes behind is no record, and other chunks may be lost with this one.
-    if (record->opcode == McapOpcode::chunk && !is_chunk(offset) && next_chunk(offset + 1))
-      fail(offset, "a chunk of another length than it says");
+    if (swallows_others(*record)) fail(offset, "a record of another length than it says");
     try {
       at_offset(file_, offset, [&] { take(*record); });
     } catch (const Damage& damage) {
@@ -75,17 +74,66 @@ class Walk {
     return record->end();
   }
 
+  /// Whether a record has a wrong length, so that others would be lost with it: none comes behind it.
+  bool swallows_others(const Record& record) {
+    if (record.opcode == McapOpcode::chunk)
+      return !is_chunk(record.start()) && next_place(record.start() + 1).has_value();
+    if (record.opcode != McapOpcode::message || !is_behind_message() || may_begin(record.end())) return false;
+    // If no other lies within it, the one behind it is the damaged one.
+    const auto next = next_place(record.start() + 1);
+    return next && *next < record.end();
+  }
+
   void add(const Damage& damage) {
     if (contents_.damages.size() < kMaxDamages) contents_.damages.push_back(damage);
   }
 
-  /// The offset of the next chunk, told by its header. None: no other follows.
-  std::optional<std::uint64_t> next_chunk(std::uint64_t offset) {
-    offset = std::max(offset, next_chunk_);  // what was searched already is not searched again
-    for (; offset < end_; ++offset)
-      if (window(offset, 1)[0] == static_cast<std::uint8_t>(McapOpcode::chunk) && is_chunk(offset)) break;
-    next_chunk_ = std::min(offset, end_);
-    return next_chunk_ < end_ ? std::optional(next_chunk_) : std::nullopt;
+  /// The offset of the next chunk, or of the next message outside of chunks, told by their headers. None: no
+  /// other follows.
+  std::optional<std::uint64_t> next_place(std::uint64_t offset) {
+    offset = std::max(offset, next_place_);  // what was searched already is not searched again
+    while (offset < end_ && !is_place(offset)) ++offset;
+    next_place_ = std::min(offset, end_);
+    return next_place_ < end_ ? std::optional(next_place_) : std::nullopt;
+  }
+
+  bool is_place(std::uint64_t offset) {
+    const McapOpcode opcode{window(offset, 1)[0]};
+    if (opcode == McapOpcode::chunk) return is_chunk(offset);
+    return opcode == McapOpcode::message && is_behind_message() && is_message(offset);
+  }
+
+  /// Whether messages lie outside of chunks here. Those of a chunk are not read without its CRC.
+  bool is_behind_message() const {
+    return !contents_.sections.empty() && !contents_.sections.back().is_chunk;
+  }
+
+  /// Whether a message begins here: of a channel that is known, and with another record or the end behind it.
+  /// Less would be met by chance, as messages may contain any bytes.
+  bool is_message(std::uint64_t offset) try {
+    const auto length = length_at(offset);
+    if (!length || *length < kMcapMessageHeaderBytes) return false;
+    const std::uint64_t content = offset + kMcapRecordHeaderBytes;
+    catalogue_.channel(ByteReader(window(content, kMcapMessageHeaderBytes)).number<std::uint16_t>());
+    return may_begin(content + *length);
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+
+  /// Whether a record of any kind may begin here, or the records end.
+  bool may_begin(std::uint64_t offset) {
+    return offset == end_ || (length_at(offset) && window(offset, 1)[0] <= kLastOpcode);
+  }
+
+  /// The length that a record of this place would have. None: there is none, or it is longer than the file.
+  std::optional<std::uint64_t> length_at(std::uint64_t offset) {
+    if (end_ - offset < kMcapRecordHeaderBytes) return std::nullopt;
+    ByteReader reader(window(offset, kMcapRecordHeaderBytes));
+    // A file system may leave zeros for an end that did not get to disk.
+    const bool is_record = reader.number<std::uint8_t>() != 0;
+    const auto length = reader.number<std::uint64_t>();
+    return is_record && length <= end_ - offset - kMcapRecordHeaderBytes ? std::optional(length)
+                                                                         : std::nullopt;
   }
 
   bool is_chunk(std::uint64_t offset) try {
@@ -118,14 +166,8 @@ class Walk {
   /// The next record. None: the file ends here, or is cut off.
   std::optional<Record> record_at(std::uint64_t offset) {
     if (offset == end_) return std::nullopt;
-    if (end_ - offset >= kMcapRecordHeaderBytes) {
-      ByteReader reader(window(offset, kMcapRecordHeaderBytes));
-      const auto opcode = reader.number<std::uint8_t>();
-      const Record record{McapOpcode{opcode}, offset + kMcapRecordHeaderBytes,
-                          reader.number<std::uint64_t>()};
-      // A file system may leave zeros for an end that did not get to disk.
-      if (opcode != 0 && record.length <= end_ - record.offset) return record;
-    }
+    if (const auto length = length_at(offset))
+      return Record{McapOpcode{window(offset, 1)[0]}, offset + kMcapRecordHeaderBytes, *length};
     if (!contents_.cut_off) fail(offset, "a record that is longer than the file, or none");
     return std::nullopt;
   }
@@ -205,7 +247,7 @@ class Walk {
   std::uint64_t end_;  ///< of the records
   McapContents contents_;
   bool data_ended_ = false;
-  std::uint64_t next_chunk_ = 0;  ///< none begins between the place of the last search and this one
+  std::uint64_t next_place_ = 0;  ///< none begins between the place of the last search and this one
   Bytes window_, content_;
   std::uint64_t window_offset_ = 0;
 };

@@ -31,8 +31,9 @@ struct McapContents {
 };
 
 /// Walks over the file from record to record, without reading chunks and messages. An index is neither needed
-/// nor trusted. What is behind a malformed record, up to the next chunk, is passed over. Throws
-/// std::runtime_error naming the file when it does not begin as MCAP does.
+/// nor trusted. What is behind a malformed record is passed over, up to the next chunk, or behind messages
+/// outside of chunks up to the next such message. Throws std::runtime_error naming the file when it does not
+/// begin as MCAP does.
 McapContents list_contents(const InputFile& file, const RecordingLimits& limits, McapCatalogue& catalogue);
 
 /// Calls `work`. A std::runtime_error that it throws becomes Damage at this offset.

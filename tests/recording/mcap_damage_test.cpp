@@ -128,6 +128,118 @@ TEST_F(McapTest, ADamagedLengthLosesOneChunkAlone) {
   }
 }
 
+/// A file whose messages lie outside of chunks, as other writers make them.
+class McapWithoutChunks : public McapTest {
+ protected:
+  static constexpr std::size_t kLengthAt = 1;  ///< of a record, behind its opcode
+  const std::vector<Message> messages_ = by_time(random_messages(70, 5));
+
+  /// Returns the places of the messages.
+  std::vector<std::size_t> write_without_chunks() {
+    Bytes bytes(kMcapMagic.begin(), kMcapMagic.end());
+    const auto add = [&](McapOpcode opcode, const Bytes& content) {
+      const Bytes added = record(static_cast<std::uint8_t>(opcode), content);
+      bytes.insert(bytes.end(), added.begin(), added.end());
+    };
+    add(McapOpcode::header, Bytes(8));  // two empty texts
+    add(McapOpcode::schema, content([](ByteWriter& to) {
+          to.number(std::uint16_t{1});
+          for (const char* text : {"type a", "omgidl", "text a"}) to.text(text);
+        }));
+    add(McapOpcode::channel, content([](ByteWriter& to) {
+          to.number(std::uint16_t{1});  // the channel
+          to.number(std::uint16_t{1});  // its schema
+          for (const char* text : {"a", "cdr"}) to.text(text);
+          to.number(std::uint32_t{0});
+        }));
+    std::vector<std::size_t> places;
+    for (const Message& message : messages_) {
+      places.push_back(bytes.size());
+      add(McapOpcode::message, content([&](ByteWriter& to) {
+            to.number(std::uint16_t{1});
+            to.number(message.sequence);
+            to.number(message.log_time_ns);
+            to.number(message.publish_time_ns);
+            to.bytes(message.data);
+          }));
+    }
+    add(McapOpcode::data_end, Bytes(4));
+    add(McapOpcode::statistics,
+        content([&](ByteWriter& to) { to.number(static_cast<std::uint64_t>(messages_.size())); }));
+    add(McapOpcode::footer, Bytes(kMcapFooterBytes));
+    bytes.insert(bytes.end(), kMcapMagic.begin(), kMcapMagic.end());
+    write_bytes(path_, bytes);
+    return places;
+  }
+  template <typename Write>
+  static Bytes content(Write write) {
+    Bytes bytes;
+    ByteWriter writer(bytes);
+    write(writer);
+    return bytes;
+  }
+  /// The sequences of the messages that come, past all damage.
+  std::vector<std::uint32_t> sequences(LeftOut& left_out) {
+    McapReader reader(path_);
+    std::vector<std::uint32_t> found;
+    while (const auto message = next_or_leave_out(left_out, [&] { return reader.next(); }))
+      found.push_back(message->sequence);
+    return found;
+  }
+  /// The sequences of all messages but one.
+  std::vector<std::uint32_t> sequences_without(std::size_t lost) {
+    std::vector<std::uint32_t> all;
+    for (std::size_t i = 0; i < messages_.size(); ++i)
+      if (i != lost) all.push_back(messages_[i].sequence);
+    return all;
+  }
+};
+
+TEST_F(McapWithoutChunks, ADamagedLengthLosesOneMessageAlone) {
+  // The message is longer than the file, or swallows a few others, or many.
+  for (const auto& [byte, value] : {std::pair(7, 0x7f), std::pair(1, 0x03), std::pair(1, 0x20)})
+    for (const std::size_t lost : {std::size_t{1}, std::size_t{30}, messages_.size() - 1}) {
+      SCOPED_TRACE(testing::Message() << byte << " of message " << lost);
+      const auto places = write_without_chunks();
+      Bytes bytes = bytes_of(path_);
+      bytes[places[lost] + kLengthAt + static_cast<std::size_t>(byte)] = static_cast<std::uint8_t>(value);
+      write_bytes(path_, bytes);
+      LeftOut left_out;
+      EXPECT_EQ(sequences(left_out), sequences_without(lost));
+      EXPECT_NE(left_out.summary().find("(first: byte " + std::to_string(places[lost]) + ")"),
+                std::string::npos)
+          << left_out.summary();
+      LeftOut strict(/*strict=*/true);
+      EXPECT_THROW(sequences(strict), Damage);
+    }
+}
+
+TEST_F(McapWithoutChunks, AMessageThatSaysToBeShorterLosesNoOther) {
+  const auto places = write_without_chunks();
+  Bytes bytes = bytes_of(path_);
+  bytes[places[30] + kLengthAt] = kMcapMessageHeaderBytes;
+  bytes[places[30] + kLengthAt + 1] = 0;
+  write_bytes(path_, bytes);
+  LeftOut left_out;
+  std::vector<std::uint32_t> found = sequences(left_out);
+  std::erase(found, messages_[30].sequence);
+  EXPECT_EQ(found, sequences_without(30));
+  EXPECT_GE(left_out.count(), 1U);
+}
+
+TEST_F(McapWithoutChunks, ADamagedMessageIsSkippedInAFileThatIsCutOff) {
+  const auto places = write_without_chunks();
+  Bytes bytes = bytes_of(path_);
+  bytes[places[30] + kLengthAt + 7] = 0x7f;
+  bytes.resize(places[50] + 20);
+  write_bytes(path_, bytes);
+  LeftOut left_out;
+  std::vector<std::uint32_t> whole = sequences_without(30);
+  whole.resize(49);
+  EXPECT_EQ(sequences(left_out), whole);
+  EXPECT_EQ(left_out.count(), 1U);
+}
+
 TEST_F(McapTest, AFullDiskKeepsWhatIsWritten) {
   const auto messages = by_time(random_messages(300, 5));
   std::size_t written = 0;
