@@ -338,7 +338,9 @@ double log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig
                     -of_lanes_instead(cut, candidate, config));
   const double sum = of_lane(cut, candidate, config);
   const Surroundings around(cut, candidate);
-  if (!candidate.driven || width_m(cut, candidate) > kMostDriven_m || has_mark_within(around)) return sum;
+  const double wide_m = width_m(cut, candidate);
+  if (!candidate.driven || wide_m < config.min_width_m || wide_m > kMostDriven_m || has_mark_within(around))
+    return sum;
   Candidate instead = candidate;
   instead.room = candidate.room == Room::between ? Room::divided : Room::between;
   const double least = is_between_edges(around) ? kLeastDriven : kLeastDrivenLine;

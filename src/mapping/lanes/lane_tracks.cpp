@@ -210,7 +210,7 @@ std::map<ElementId, ElementId> LaneTracks::publish(const std::vector<Lane>& lane
       track->id = ids.next();
       renamed.emplace(lane.id, track->id);
     }
-    track->told_direction = lane.direction == Lane::Direction::unknown ? 0 : 1;
+    track->told_direction = lane.direction == Lane::Direction::along_centerline ? 1 : 0;
     track->published = 1;
   }
   std::ranges::sort(tracks_, {}, &LaneTrack::id);

@@ -23,6 +23,7 @@ constexpr double kEdgeLineEvidence = 0.5;  // of a solid line beside the outermo
 constexpr double kTrailEvidence = 1.5;
 constexpr double kOncomingEvidence = 3.0;
 constexpr double kOvertakingEvidence = 0.5;
+constexpr int kLeastOfBoth = 3;          // vehicles, the own one among them, that tell of traffic both ways
 constexpr double kOneWayEvidence = 2.0;  // of a one-way street of the SD map
 constexpr double kWrongSide = -6.0;      // for traffic that keeps to the wrong side
 constexpr double kWrongObserved = -4.0;  // likewise, where traffic told the side
@@ -159,13 +160,18 @@ double trail_evidence(double along_m, double own_way_beside) {
   return along_m * own_way_beside < 0.0 ? kOncomingEvidence : kOvertakingEvidence;
 }
 
-/// Per group, the log odds of its direction by the trails in its lanes. A trail counts once, as it was mostly
-/// driven. `driven` is in the order of the trails. `beside` is as own_way_beside() tells.
-std::vector<double> traffic_evidence(const std::vector<DrivenStretch>& driven,
-                                     const geometry::OrientedGroups& groups,
-                                     const std::vector<double>& beside) {
+/// What the trails in its lanes tell of a group.
+struct GroupTraffic {
+  std::vector<double> evidence;            ///< per group, log odds of its direction
+  std::vector<std::array<int, 2>> trails;  ///< per group, number of those that were driven along and against
+};
+
+/// A trail counts once, as it was mostly driven. `driven` is in the order of the trails. `beside` is as
+/// own_way_beside() tells.
+GroupTraffic traffic_evidence(const std::vector<DrivenStretch>& driven,
+                              const geometry::OrientedGroups& groups, const std::vector<double>& beside) {
   std::vector<double> evidence(beside.size(), 0.0), along_m(beside.size(), 0.0);
-  std::vector<std::array<int, 2>> trails(beside.size());  // that were driven along and against
+  std::vector<std::array<int, 2>> trails(beside.size());
   for (auto first = driven.begin(); first != driven.end();) {
     const auto end = std::find_if(first, driven.end(),
                                   [&](const DrivenStretch& one) { return one.trail != first->trail; });
@@ -179,6 +185,22 @@ std::vector<double> traffic_evidence(const std::vector<DrivenStretch>& driven,
       const int number = ++trails[group][length_m > 0.0 ? 0 : 1];
       evidence[group] += std::copysign(trail_evidence(length_m, beside[group]) / (number * number), length_m);
     }
+  }
+  return {std::move(evidence), std::move(trails)};
+}
+
+/// Per group, the log odds that its lane is driven both ways, 0 where nothing tells it. It is the only lane
+/// of its road: elsewhere, whoever drives against the others overtakes.
+std::vector<double> both_ways_evidence(const std::vector<double>& drive,
+                                       const std::vector<SideBySideGroups>& pairs,
+                                       const std::vector<std::array<int, 2>>& trails) {
+  std::vector<double> evidence(drive.size(), 0.0);
+  for (std::size_t i = 0; i < drive.size(); ++i) {
+    const auto is_pair = [&](const SideBySideGroups& pair) { return pair.left == i || pair.right == i; };
+    const int along = trails[i][0] + (drive[i] >= kOwnDriveKnown ? 1 : 0);
+    const int against = trails[i][1] + (drive[i] <= -kOwnDriveKnown ? 1 : 0);
+    if (along + against < kLeastOfBoth || std::ranges::any_of(pairs, is_pair)) continue;
+    evidence[i] = kTrailEvidence * std::min(along, against);
   }
   return evidence;
 }
@@ -203,8 +225,11 @@ DirectionModel direction_model(const RoadGraph& road, DrivingSide driving_side, 
                        .trails = {},
                        .streets = {},
                        .evidence = {},
+                       .both_ways = {},
                        .pairs = side_by_side_groups(traffic.beside, groups)};
-  model.trails = traffic_evidence(traffic.driven, groups, own_way_beside(model.drive, model.pairs));
+  GroupTraffic others = traffic_evidence(traffic.driven, groups, own_way_beside(model.drive, model.pairs));
+  model.trails = std::move(others.evidence);
+  model.both_ways = both_ways_evidence(model.drive, model.pairs, others.trails);
   std::vector<Mean> borders(lanes.size()), streets(lanes.size());
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const double sense = is_opposed(groups, i) ? -1.0 : 1.0;

@@ -43,6 +43,7 @@ struct DirectionModel {
   bool is_side_corrected = false;  ///< traffic told it, against the configuration
   std::vector<double> drive, borders, trails, streets;  ///< the terms of the evidence
   std::vector<double> evidence;                         ///< their sum
+  std::vector<double> both_ways;  ///< log odds that traffic runs either way; 0: nothing tells it
   std::vector<SideBySideGroups> pairs;
 };
 

@@ -110,6 +110,12 @@ Evidence remembered(const lanes::LaneTrack& track, Evidence now, const GroupBeli
   return beyond > kRemembered ? now | track.belief_evidence : now;
 }
 
+void tell(Lane::Direction direction, double log_odds, Evidence evidence, Lane& lane) {
+  lane.direction = direction;
+  lane.direction_probability = geometry::reproducible::probability(std::abs(log_odds));
+  lane.direction_evidence = evidence;
+}
+
 /// The place for the reasons of a lane. Null: nobody asks.
 LaneReason* reason_of(ElementId id, FrameReasons* reasons) {
   if (reasons == nullptr) return nullptr;
@@ -182,11 +188,12 @@ void find_directions(const DirectionConfig& config, const RoadTraffic& traffic, 
       track->belief = sense * belief[of];
       rests_on = track->belief_evidence = remembered(*track, rests_on, of_group);
     }
-    if (is_known(belief[of], before.direction[of])) {
-      lane.direction = Lane::Direction::along_centerline;
-      lane.direction_probability = geometry::reproducible::probability(std::abs(belief[of]));
-      lane.direction_evidence = rests_on == Evidence::none ? lane.evidence : rests_on;
-    }
+    if (is_known(belief[of], before.direction[of]))
+      tell(Lane::Direction::along_centerline, belief[of],
+           rests_on == Evidence::none ? lane.evidence : rests_on, lane);
+    if (model.both_ways[of] > 0.0)
+      tell(Lane::Direction::both, model.both_ways[of],
+           lane.evidence & (Evidence::traffic | Evidence::ego_path), lane);
     const bool turns = sense * sense_of(belief[of], before.direction[of], before.orientation[of]) < 0.0;
     if (turns) against.push_back(lane.id);
     if (LaneReason* reason = reason_of(lane.id, reasons))
