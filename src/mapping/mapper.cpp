@@ -140,6 +140,7 @@ LocalMap assembled(const geometry::Scene& scene, markings::FusedMarkings fused, 
   map.lineage = lineage(before, state.published, fused.relatives);
   mark_stoplines(state.map.stoplines, map.lineage);
   mark_stoplines(map.stoplines, map.lineage);
+  topology::tell_uses(state.roadside, state.map.lanes, road);
   std::ranges::move(road.side_strips, std::back_inserter(road.lanes));
   std::ranges::sort(road.lanes, {}, &Lane::id);
   std::ranges::move(lane_lineage(state.map.lanes, road.lanes), std::back_inserter(map.lineage));
@@ -180,8 +181,7 @@ void see_again(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body,
     map.stamp_ns = frame.stamp_ns;
     map.T_map_body = T_map_body;
   }
-  state.trails.keep_around(map.T_map_body.translation());
-  state.roadside.keep_around(map.T_map_body.translation());
+  state.keep_others_around(map.T_map_body.translation());
   lead_on(sd_map, std::exchange(map.way, std::nullopt), log, state, map);
 }
 
@@ -221,8 +221,7 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
     return state.map;
   }
   const geometry::Scene scene = next_scene(frame, seen_from, config_, state);
-  state.trails.keep_around(scene.T_map_body().translation());
-  state.roadside.keep_around(scene.T_map_body().translation());
+  state.keep_others_around(scene.T_map_body().translation());
   markings::FusedMarkings fused =
       state.fusion.update(std::move(observed), scene, config_, state.ids, log);  // III-B and III-C
   detections_unsure_ = fused.unsure;
@@ -240,7 +239,6 @@ const LocalMap& Mapper::update(const DetectionFrame& frame, const Eigen::Isometr
   if (config_.evidence.ego_path) link_ego_track(scene.T_map_body(), state.ego_track, road);
   name_lanes(log.reasons(), state, road);
   meet_at_joints(road);
-  topology::tell_uses(state.roadside, state.map.lanes, road);
   std::vector<DrivenPath> paths = paths_beside(road, traffic.driven, scene, config_.lane, state);
   LocalMap map =
       log.done(Stage::linkages, assembled(scene, std::move(fused), std::move(road), config_.stopline, state));

@@ -65,15 +65,15 @@ Eigen::Isometry3d continued(const Eigen::Isometry3d& before, const Eigen::Isomet
 }
 
 /// The vehicle's pose without the jump, in the map of before, if the detections tell that there was one.
-std::optional<Eigen::Isometry3d> pose_without(const Eigen::Isometry3d& jump, double least_gain,
-                                              const Eigen::Isometry3d& told, const MapFit& fit) {
-  const Eigen::Isometry3d predicted = jump.inverse() * told;
+std::optional<Eigen::Isometry3d> pose_without(const SuspectedJump& jump, const Eigen::Isometry3d& told,
+                                              const MapFit& fit) {
+  const Eigen::Isometry3d predicted = jump.motion.inverse() * told;
   const Eigen::Isometry3d fitted = fit.refined(predicted);
   if (apart_m(fitted, predicted) > kMostLeft * apart_m(told, predicted)) return std::nullopt;
   const double explained_m = fit.explained_m(told);
   const double gain_m = std::max(fit.explained_m(predicted) - explained_m,
                                  fit.explained_m(fitted) - fit.explained_m(fit.refined(told)));
-  if (gain_m < std::max(kLeastGain_m, least_gain * explained_m)) return std::nullopt;
+  if (gain_m < std::max(kLeastGain_m, jump.least_gain * explained_m)) return std::nullopt;
   return fitted;
 }
 
@@ -97,7 +97,7 @@ std::optional<Eigen::Isometry3d> PoseJumps::find(const DetectionFrame& frame,
   const MapFit fit(frame, map_markings, T_map_body);
   if (!suspected_) return come_away(fit, pose);
   away_.reset();
-  const auto true_pose = pose_without(suspected_->jump, suspected_->least_gain, T_map_body, fit);
+  const auto true_pose = pose_without(*suspected_, T_map_body, fit);
   if (!true_pose) {
     ++frames_since_;
     if (fit.length_m() >= kLeastGain_m) ++doubtful_frames_;
@@ -110,7 +110,7 @@ std::optional<Eigen::Isometry3d> PoseJumps::find(const DetectionFrame& frame,
 }
 
 /// The motion from where the vehicle should be to where it is, if no vehicle moves like that.
-std::optional<PoseJumps::Suspicion> PoseJumps::suspect(const Stamped& pose) const {
+std::optional<SuspectedJump> PoseJumps::suspect(const Stamped& pose) const {
   if (poses_.size() < 2) return std::nullopt;
   const Stamped& last = poses_.back();
   const double step_s = seconds(pose.stamp_ns - last.stamp_ns);
@@ -130,8 +130,8 @@ std::optional<PoseJumps::Suspicion> PoseJumps::suspect(const Stamped& pose) cons
   };
   const double tolerance_s2 = 0.5 * step_s * (step_s + before_s);
   if (!exceeds(std::min(tolerance_s2, kUsualTolerance_s2))) return std::nullopt;
-  return Suspicion{motion_between(expected, pose.transform),
-                   exceeds(tolerance_s2) ? kLeastGain : kLeastAwayGain};
+  return SuspectedJump{motion_between(expected, pose.transform),
+                       exceeds(tolerance_s2) ? kLeastGain : kLeastAwayGain};
 }
 
 /// The motion by which the poses have come away, if this frame and the one before tell it.

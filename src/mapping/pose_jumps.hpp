@@ -11,6 +11,17 @@ namespace laneloom {
 
 class MapFit;
 
+/// A step of the poses that the detections have to decide about.
+struct SuspectedJump {
+  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  ///< map frame
+  double least_gain = 0.0;  ///< share of the explained detections that have to speak for it
+
+  template <class Archive>
+  void serialize(Archive& archive) {
+    archive(motion, least_gain);
+  }
+};
+
 /// Tells jumps of the poses from motions of the vehicle. A jump is a step that no vehicle makes, and that the
 /// detections contradict: they fit the map better from where the vehicle would be without the step. Ours.
 class PoseJumps {
@@ -42,27 +53,16 @@ class PoseJumps {
     }
   };
 
-  /// A step of the poses that the detections have to decide about.
-  struct Suspicion {
-    Eigen::Isometry3d jump = Eigen::Isometry3d::Identity();  ///< motion, map frame
-    double least_gain = 0.0;  ///< share of detections that have to speak for it
-
-    template <class Archive>
-    void serialize(Archive& archive) {
-      archive(jump, least_gain);
-    }
-  };
-
-  std::optional<Suspicion> suspect(const Stamped& pose) const;
+  std::optional<SuspectedJump> suspect(const Stamped& pose) const;
   std::optional<Eigen::Isometry3d> come_away(const MapFit& fit, const Stamped& pose);
   void accept(const Stamped& jump);
 
-  std::deque<Stamped> poses_;              ///< of the newest frames, in the order of their stamps
-  std::deque<Stamped> jumps_;              ///< the last ones
-  std::optional<Suspicion> suspected_;     ///< a jump that no detection has decided yet
-  std::optional<Eigen::Isometry3d> away_;  ///< motion by which the frame before had come away
-  int frames_since_ = 0;                   ///< number of frames since its first pose
-  int doubtful_frames_ = 0;                ///< number of those that could have decided it
+  std::deque<Stamped> poses_;               ///< of the newest frames, in the order of their stamps
+  std::deque<Stamped> jumps_;               ///< the last ones
+  std::optional<SuspectedJump> suspected_;  ///< a jump that no detection has decided yet
+  std::optional<Eigen::Isometry3d> away_;   ///< motion by which the frame before had come away
+  int frames_since_ = 0;                    ///< number of frames since its first pose
+  int doubtful_frames_ = 0;                 ///< number of those that could have decided it
 };
 
 }  // namespace laneloom

@@ -86,6 +86,12 @@ struct MapperState {  // NOLINT(bugprone-exception-escape)
   /// Remembers where the vehicle is.
   void drive_through(const Point& place);
 
+  /// Forgets what others did further from the vehicle than it will be of use.
+  void keep_others_around(const Point& vehicle) {
+    trails.keep_around(vehicle);
+    roadside.keep_around(vehicle);
+  }
+
   /// Moves the map with poses that have jumped by `motion`, map frame. Voxels can not be moved: they are
   /// forgotten, with the lanes between them. Trails of other vehicles are forgotten, too.
   void follow(const Eigen::Isometry3d& motion, const MapperConfig& config);

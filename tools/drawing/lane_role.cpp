@@ -42,7 +42,7 @@ const char* title(LaneRole role) {
     case LaneRole::crossing:
       return "crossing";
     case LaneRole::unused:
-      return "shoulder, parking, cycle lane";
+      return "side strip";
     default:
       return "direction unknown";
   }

@@ -17,10 +17,10 @@ bool same_letters(std::string_view one, std::string_view other) {
 
 std::string_view without_sign(std::string_view token) { return token.substr(token.starts_with('-') ? 1 : 0); }
 
-/// Whether a token begins as `word`, as far as both reach.
-bool begins_as(std::string_view token, std::string_view word) {
-  const std::size_t size = std::min(token.size(), word.size());
-  return same_letters(token.substr(0, size), word.substr(0, size));
+/// Whether a word begins as another one, as far as both reach.
+bool begins_as(std::string_view word, std::string_view known) {
+  const std::size_t size = std::min(word.size(), known.size());
+  return same_letters(word.substr(0, size), known.substr(0, size));
 }
 
 /// Whether a character outside of texts is no part of a number or of a word.

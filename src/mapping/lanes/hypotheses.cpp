@@ -223,6 +223,30 @@ bool drives_in(const VehicleBeside& vehicle, const Hypothesis& one, std::span<co
   });
 }
 
+/// Whether a vehicle drives between the mark of an open lane and the next one, `room_m` away.
+bool drives_in_room(std::span<const VehicleBeside> vehicles, Room room, double room_m) {
+  return is_open(room) && std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
+           return vehicle.is_in_open(room, room_m);
+         });
+}
+
+bool is_near(std::span<const VehicleBeside> vehicles, const Point& place) {
+  return std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) { return vehicle.is_near(place); });
+}
+
+/// Adds the log odds of a hypothesis at its next place: of lanes, and of strips for others than cars.
+void add_log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config,
+                  Hypothesis& hypothesis) {
+  const bool outer = !is_open(hypothesis.room) && is_parted(cut, candidate.left, 0.0);
+  hypothesis.log_odds.push_back(std::clamp(log_odds(cut, candidate, config), kLeast, kMost) +
+                                (outer ? kOuterOfTwo : 0.0));
+  if (!config.find_side_strips) return;
+  if (may_be_shoulder(cut, candidate))
+    hypothesis.shoulder_log_odds.push_back(shoulder_log_odds(cut, candidate, config));
+  if (may_be_cycle_lane(cut, candidate))
+    hypothesis.cycle_log_odds.push_back(cycle_log_odds(cut, candidate, config));
+}
+
 /// Gives hypotheses their log odds.
 std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& cuts,
                                 const boundaries::SectionGraph& road, Poses driven,
@@ -248,27 +272,15 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
     if (one.room == Room::between) find_parted(one.other, cuts, step_m, parted);
     one.log_odds.reserve(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
-      auto& [cut, candidate, width, opposite] = places[i];
+      const RoadCut& cut = places[i].cut;
+      Candidate& candidate = places[i].candidate;
       candidate.driven = is_driven;
-      candidate.room_driven =
-          is_open(one.room) && std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
-            return vehicle.is_in_open(one.room, width);
-          });
-      const Point& at = cut.self().point;
-      candidate.here = is_driven && std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) {
-                         return vehicle.is_near(at);
-                       });
+      candidate.room_driven = drives_in_room(vehicles, one.room, places[i].width_m);
+      candidate.here = is_driven && is_near(vehicles, cut.self().point);
       candidate.gore = gore.contains(i);
       candidate.parted = parted[one.first + i];
       candidate.taper = is_open(one.room) ? 0.0 : taper_at(places, i, step_m);
-      const bool outer = !is_open(one.room) && is_parted(cut, candidate.left, 0.0);
-      one.log_odds.push_back(std::clamp(log_odds(cut, candidate, config), kLeast, kMost) +
-                             (outer ? kOuterOfTwo : 0.0));
-      if (!config.find_side_strips) continue;
-      if (may_be_shoulder(cut, candidate))
-        one.shoulder_log_odds.push_back(shoulder_log_odds(cut, candidate, config));
-      if (may_be_cycle_lane(cut, candidate))
-        one.cycle_log_odds.push_back(cycle_log_odds(cut, candidate, config));
+      add_log_odds(cut, candidate, config, one);
     }
   }
   return found;

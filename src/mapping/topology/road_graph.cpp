@@ -94,11 +94,11 @@ void RoadGraph::rename(const std::map<ElementId, ElementId>& ids) {
 
 void RoadGraph::turn_side_strips() {
   for (Lane& strip : side_strips)
-    for (const Lane& lane : lanes) {
-      const std::optional<bool> against = runs_against(strip, lane);
+    for (const Lane& beside : lanes) {
+      const std::optional<bool> against = runs_against(strip, beside);
       if (!against) continue;
       if (*against) topology::turn(strip);
-      strip.direction = lane.direction;
+      strip.direction = beside.direction;
       break;
     }
 }

@@ -92,10 +92,10 @@ void tell_uses(const trails::Roadside& roadside, const std::vector<Lane>& former
     const auto before = std::ranges::find(former, strip.id, &Lane::id);
     for (std::size_t i = 0; i < kUses.size(); ++i)
       if (before != former.end() && before->use == kUses.at(i)) uses.at(i) += kAsBefore;
-    const auto best = std::ranges::max_element(uses);
+    const double most = std::ranges::max(uses);
     double sum = 0.0;
-    for (const double use : uses) sum += geometry::reproducible::exp(use - *best);
-    strip.use = kUses.at(static_cast<std::size_t>(best - uses.begin()));
+    for (const double use : uses) sum += geometry::reproducible::exp(use - most);
+    strip.use = kUses.at(static_cast<std::size_t>(std::ranges::find(uses, most) - uses.begin()));
     strip.use_probability = 1.0 / sum;
   }
 }
