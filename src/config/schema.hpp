@@ -218,8 +218,7 @@ void visit(auto& v, Is<LaneConfig> auto& c) {
            "Wider strips beside a roadedge, where there is room to park, rather are no lanes.");
   v.flag("find_side_strips", find_side_strips,
          "Tell shoulders from lanes, which lie between a roadedge and the solid line of a lane, and cycle "
-         "lanes, "
-         "which are narrow.");
+         "lanes, which are narrow.");
   v.number("max_shoulder_width_m", max_shoulder_width_m, {"m", 0.5, 20}, "A shoulder is narrower than this.");
   v.flag("publish_side_strips", publish_side_strips,
          "Publish shoulders, parking strips and cycle lanes, as lanes with that use. A planner that does not "

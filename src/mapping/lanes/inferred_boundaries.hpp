@@ -40,7 +40,8 @@ std::vector<Marking*> markings_of(std::vector<InferredBoundary>& inferred);
 /// A marking of status inferred through `points`, without an id.
 Marking inferred_marking(const Polyline& points);
 
-/// The space that is taken by lanes: stretches along the sides of boundaries, and strips of the road.
+/// The space that lanes or other strips take: stretches along the sides of boundaries, and strips of the
+/// road.
 class TakenSpace {
  public:
   /// Taken stretches along one side of a boundary, as it runs itself.

@@ -78,15 +78,17 @@ class Choice {
     if (!is_open(hypothesis.room) && were_two_between(hypothesis)) remember_two(hypothesis);
     std::vector<double> of_shoulder = std::exchange(hypothesis.shoulder_log_odds, {});
     std::vector<double> of_cycle_lane = std::exchange(hypothesis.cycle_log_odds, {});
-    if (!of_shoulder.empty()) await(as_strip(hypothesis, Lane::Use::shoulder, std::move(of_shoulder)));
-    if (!of_cycle_lane.empty()) await(as_strip(hypothesis, Lane::Use::cycle, std::move(of_cycle_lane)));
+    await_strip(hypothesis, Lane::Use::shoulder, std::move(of_shoulder));
+    await_strip(hypothesis, Lane::Use::cycle, std::move(of_cycle_lane));
     await({.hypothesis = std::move(hypothesis)});
   }
 
-  /// The hypothesis that no lane lies there, but a strip of another use.
-  static Waiting as_strip(Hypothesis hypothesis, Lane::Use use, std::vector<double> log_odds) {
-    hypothesis.log_odds = std::move(log_odds);
-    return {.hypothesis = std::move(hypothesis), .use = use};
+  /// Awaits that no lane lies there, but a strip of another use. Most have no place where that is likely.
+  void await_strip(const Hypothesis& hypothesis, Lane::Use use, std::vector<double> log_odds) {
+    if (std::ranges::none_of(log_odds, [](double one) { return one > 0.0; })) return;
+    Hypothesis strip = hypothesis;
+    strip.log_odds = std::move(log_odds);
+    await({.hypothesis = std::move(strip), .use = use});
   }
 
   void await(Waiting one) {

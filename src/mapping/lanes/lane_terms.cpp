@@ -378,7 +378,7 @@ double cycle_log_odds(const RoadCut& cut, const Candidate& candidate, const Lane
     return !around.border(side).is_edge && gap_m > kBesideStrip_m && gap_m < kNothing_m;
   });
   const double less_sure = bounded(std::min(around.left().log_odds, around.right().log_odds));
-  // What is narrower than a lane.
+  // A cycle lane is narrower than a lane.
   const double as_by_default_m = width_m(cut, candidate) + kLeastWidth_m - config.min_width_m;
   return on_curve(kCycleWidth, as_by_default_m) + (is_beside_strip ? 0.0 : kAlone) +
          kUnsureMark * std::min(less_sure - kSureMark, 0.0) + (candidate.driven ? kDrivenShoulder : 0.0) +

@@ -160,7 +160,7 @@ double trail_evidence(double along_m, double own_way_beside) {
   return along_m * own_way_beside < 0.0 ? kOncomingEvidence : kOvertakingEvidence;
 }
 
-/// What the trails in its lanes tell of a group.
+/// The evidence of the trails in the lanes of groups.
 struct GroupTraffic {
   std::vector<double> evidence;            ///< per group, log odds of its direction
   std::vector<std::array<int, 2>> trails;  ///< per group, number of those that were driven along and against

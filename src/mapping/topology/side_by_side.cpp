@@ -35,10 +35,9 @@ constexpr double kAlongside = 0.8;     // cosine between boundaries of one road,
 constexpr double kBesideRoad_m = 8.0;  // further away from a lane's side, the vehicle drives on another road
 constexpr std::size_t kLatestPlaces = 8;  // of the own way
 
-/// Whether the vehicle drives beyond a side of a lane, on the same road. That side is not the road's border
-/// then, although no lane was found there.
-bool is_driven_beyond(const Lane& lane, Side side, std::span<const Point> own_way) {
-  const MeasuredPolyline border(side == Side::left ? lane.left : lane.right);
+/// Whether the vehicle drives beyond the border on a side of a lane, on the same road. That side is not the
+/// road's then, although no lane was found there.
+bool is_driven_beyond(const MeasuredPolyline& border, Side side, std::span<const Point> own_way) {
   const auto latest = own_way.last(std::min(own_way.size(), kLatestPlaces));
   for (std::size_t i = 0; i < latest.size(); ++i) {
     const Projection foot = border.project(latest[i], kBesideRoad_m);
@@ -208,15 +207,15 @@ std::vector<SideBySideLanes> side_by_side(const lanes::LaneLayout& layout, std::
 
 bool goes_on_beyond(const lanes::LaneLayout& layout, const Lane& lane, Side side,
                     std::span<const Point> own_way) {
-  if (is_driven_beyond(lane, side, own_way)) return true;
+  const MeasuredPolyline course(side == Side::left ? lane.left : lane.right);
+  if (is_driven_beyond(course, side, own_way)) return true;
   const auto ends_road = [&](const Border& border) {
     return border.boundary == kNoElement || layout.boundaries.of(border.boundary).is_edge();
   };
   if (std::ranges::any_of(lane.borders(side), ends_road)) return false;
-  const MeasuredPolyline border(side == Side::left ? lane.left : lane.right);
-  const double middle_m = 0.5 * border.length();
-  const Point middle = border.at(middle_m);
-  const Eigen::Vector2d along = border.direction(middle_m);
+  const double middle_m = 0.5 * course.length();
+  const Point middle = course.at(middle_m);
+  const Eigen::Vector2d along = course.direction(middle_m);
   double nearest_m = kMaxBeyond_m;
   for (const boundaries::LaneBoundary& boundary : layout.boundaries) {
     if (std::ranges::count(lane.borders(side), boundary.marking.id, &Border::boundary) > 0) continue;

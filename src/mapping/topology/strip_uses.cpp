@@ -6,8 +6,8 @@
 #include <cstddef>
 
 #include "laneloom/polyline.hpp"
-#include "mapping/geometry/levels.hpp"
 #include "mapping/geometry/reproducible.hpp"
+#include "mapping/lanes/inferred_boundaries.hpp"
 #include "mapping/markings/markings.hpp"
 
 namespace laneloom::topology {
@@ -16,7 +16,7 @@ namespace {
 constexpr std::array kUses{Lane::Use::shoulder, Lane::Use::parking, Lane::Use::cycle};
 using LogOdds = std::array<double, kUses.size()>;
 
-// What each use says of a strip, as log odds. The weights were set by hand.
+// Log odds of each use of a strip. The weights were set by hand.
 constexpr double kSolid = 1.5;           // a shoulder lies behind a solid line, not behind a dashed one
 constexpr double kNoEdge = -4.0;         // a shoulder lies beside an edge
 constexpr double kParking = -2.0;        // few strips are for parking,
@@ -35,8 +35,9 @@ constexpr std::size_t kLeastRidden = 5;  // points of a trail, 1 m apart at leas
 /// A strip, and who stands and rides there.
 class ObservedStrip {
  public:
-  ObservedStrip(const Lane& strip, const boundaries::Boundaries& boundaries)
-      : strip_(strip), middle_(strip.centerline) {
+  ObservedStrip(const Lane& strip, const boundaries::Boundaries& boundaries) : width_m_(strip.width_m) {
+    space_.add(strip.centerline, 0.5 * strip.width_m);
+    double dashed_m = 0.0;  // of its lines, less what of them is solid
     for (const Side side : kSides)
       for (const Border& border : strip.borders(side)) {
         const boundaries::LaneBoundary* boundary = boundaries.find(border.boundary);
@@ -44,44 +45,40 @@ class ObservedStrip {
         if (boundary->is_edge())
           has_edge_ = true;
         else
-          dashed_m_ += markings::dashed_excess_m(boundary->marking, border.on_boundary);
+          dashed_m += markings::dashed_excess_m(boundary->marking, border.on_boundary);
       }
+    dashed_ = std::clamp(dashed_m / std::max(length(strip.centerline), 1.0), -1.0, 1.0);
   }
 
   /// Log odds of each use, but for a common term.
   LogOdds uses(const trails::Roadside& roadside) const {
-    const double dashed = std::clamp(dashed_m_ / std::max(middle_.length(), 1.0), -1.0, 1.0);
-    return {-kSolid * dashed + (has_edge_ ? 0.0 : kNoEdge),
+    return {-kSolid * dashed_ + (has_edge_ ? 0.0 : kNoEdge),
             kParking + kParkedVehicle * counted(standing(roadside)) +
-                (strip_.width_m < kLeastParking_m ? kTooNarrow : 0.0),
-            kDashed * std::max(dashed, 0.0) + (has_edge_ ? kCycleBesideEdge : 0.0) +
-                kCyclist * counted(ridden(roadside)) + (strip_.width_m > kMostCycle_m ? kTooWide : 0.0)};
+                (width_m_ < kLeastParking_m ? kTooNarrow : 0.0),
+            kDashed * std::max(dashed_, 0.0) + (has_edge_ ? kCycleBesideEdge : 0.0) +
+                kCyclist * counted(ridden(roadside)) + (width_m_ > kMostCycle_m ? kTooWide : 0.0)};
   }
 
  private:
   static double counted(std::ptrdiff_t witnesses) {
     return static_cast<double>(std::min(static_cast<std::size_t>(witnesses), kMostWitnesses));
   }
-  bool contains(const Point& point) const {
-    const double half_width_m = 0.5 * strip_.width_m;
-    const Projection foot = middle_.project(point, half_width_m);
-    return foot.inside && foot.distance_m < half_width_m && geometry::same_level(foot.foot, point);
-  }
   std::ptrdiff_t standing(const trails::Roadside& roadside) const {
-    return std::ranges::count_if(roadside.standing(), [&](const Point& place) { return contains(place); });
+    return std::ranges::count_if(roadside.standing(),
+                                 [&](const Point& place) { return space_.contains(place); });
   }
   std::ptrdiff_t ridden(const trails::Roadside& roadside) const {
     return std::ranges::count_if(roadside.cyclists(), [&](const trails::Trail& trail) {
       const auto within =
-          std::ranges::count_if(trail.points, [&](const Point& point) { return contains(point); });
+          std::ranges::count_if(trail.points, [&](const Point& point) { return space_.contains(point); });
       return static_cast<std::size_t>(within) >= kLeastRidden;
     });
   }
 
-  const Lane& strip_;
-  MeasuredPolyline middle_;
+  double width_m_;
+  lanes::TakenSpace space_;
   bool has_edge_ = false;
-  double dashed_m_ = 0.0;  ///< of its lines, less what of them is solid
+  double dashed_ = 0.0;  ///< from -1, where its lines are solid, to 1
 };
 
 }  // namespace
