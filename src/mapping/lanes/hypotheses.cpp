@@ -234,17 +234,18 @@ bool is_near(std::span<const VehicleBeside> vehicles, const Point& place) {
   return std::ranges::any_of(vehicles, [&](const VehicleBeside& vehicle) { return vehicle.is_near(place); });
 }
 
-/// Adds the log odds of a hypothesis at its next place: of lanes, and of strips for others than cars.
-void add_log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config,
-                  Hypothesis& hypothesis) {
-  const bool outer = !is_open(hypothesis.room) && is_parted(cut, candidate.left, 0.0);
-  hypothesis.log_odds.push_back(std::clamp(log_odds(cut, candidate, config), kLeast, kMost) +
-                                (outer ? kOuterOfTwo : 0.0));
-  if (!config.find_side_strips) return;
-  if (may_be_shoulder(cut, candidate))
-    hypothesis.shoulder_log_odds.push_back(shoulder_log_odds(cut, candidate, config));
-  if (may_be_cycle_lane(cut, candidate))
-    hypothesis.cycle_log_odds.push_back(cycle_log_odds(cut, candidate, config));
+/// Gives a hypothesis the log odds that strips for others than cars lie there. Its marks are of one kind at
+/// all places.
+void weigh_strips(std::span<const Place> places, const LaneConfig& config, Hypothesis& hypothesis) {
+  if (may_be_shoulder(places.front().cut, places.front().candidate))
+    for (const Place& place : places)
+      hypothesis.shoulder_log_odds.push_back(shoulder_log_odds(place.cut, place.candidate, config));
+  const auto may_be_cycle_lane = [&](const Place& place) {
+    return lanes::may_be_cycle_lane(place.cut, place.candidate, config);
+  };
+  if (std::ranges::any_of(places, may_be_cycle_lane))
+    for (const Place& place : places)
+      hypothesis.cycle_log_odds.push_back(cycle_log_odds(place.cut, place.candidate, config));
 }
 
 /// Gives hypotheses their log odds.
@@ -280,8 +281,11 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
       candidate.gore = gore.contains(i);
       candidate.parted = parted[one.first + i];
       candidate.taper = is_open(one.room) ? 0.0 : taper_at(places, i, step_m);
-      add_log_odds(cut, candidate, config, one);
+      const bool outer = !is_open(one.room) && is_parted(cut, candidate.left, 0.0);
+      one.log_odds.push_back(std::clamp(log_odds(cut, candidate, config), kLeast, kMost) +
+                             (outer ? kOuterOfTwo : 0.0));
     }
+    if (config.find_side_strips) weigh_strips(places, config, one);
   }
   return found;
 }

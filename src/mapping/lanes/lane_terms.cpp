@@ -302,6 +302,11 @@ double of_lane(const RoadCut& cut, const Candidate& candidate, const LaneConfig&
   return left.is_edge || right.is_edge ? sum + of_shoulder(around, wide_m, candidate.room, config) : sum;
 }
 
+/// The log odds of a cycle lane by its width. It is narrower than a lane.
+double of_cycle_width(double width_m, const LaneConfig& config) {
+  return on_curve(kCycleWidth, width_m + kLeastWidth_m - config.min_width_m);
+}
+
 /// The log odds that lanes lie between the mark of an open lane and the next one on that side.
 double of_lanes_instead(const RoadCut& cut, const Candidate& open, const LaneConfig& config) {
   Candidate instead = open;
@@ -366,9 +371,10 @@ double shoulder_log_odds(const RoadCut& cut, const Candidate& candidate, const L
          kEdgeInside * around.inside(true) + kLineInside * around.inside(false);
 }
 
-bool may_be_cycle_lane(const RoadCut& cut, const Candidate& candidate) {
+bool may_be_cycle_lane(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config) {
   return candidate.room == Room::between &&
-         !(cut.marks[candidate.left].is_edge && cut.marks[candidate.right].is_edge);
+         !(cut.marks[candidate.left].is_edge && cut.marks[candidate.right].is_edge) &&
+         of_cycle_width(width_m(cut, candidate), config) > 0.0;
 }
 
 double cycle_log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config) {
@@ -378,9 +384,7 @@ double cycle_log_odds(const RoadCut& cut, const Candidate& candidate, const Lane
     return !around.border(side).is_edge && gap_m > kBesideStrip_m && gap_m < kNothing_m;
   });
   const double less_sure = bounded(std::min(around.left().log_odds, around.right().log_odds));
-  // A cycle lane is narrower than a lane.
-  const double as_by_default_m = width_m(cut, candidate) + kLeastWidth_m - config.min_width_m;
-  return on_curve(kCycleWidth, as_by_default_m) + (is_beside_strip ? 0.0 : kAlone) +
+  return of_cycle_width(width_m(cut, candidate), config) + (is_beside_strip ? 0.0 : kAlone) +
          kUnsureMark * std::min(less_sure - kSureMark, 0.0) + (candidate.driven ? kDrivenShoulder : 0.0) +
          kEdgeInside * around.inside(true) + kLineInside * around.inside(false);
 }

@@ -47,10 +47,10 @@ bool may_be_shoulder(const RoadCut& cut, const Candidate& candidate);
 /// The log odds that a candidate that may be a shoulder is one. The weights were set by hand.
 double shoulder_log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config);
 
-/// Whether a candidate may be a cycle lane: it lies beside a line.
-bool may_be_cycle_lane(const RoadCut& cut, const Candidate& candidate);
+/// Whether a candidate may be a cycle lane: it lies beside a line, and is as narrow as one.
+bool may_be_cycle_lane(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config);
 
-/// The log odds that a candidate that may be a cycle lane is one. The weights were set by hand.
+/// The log odds that a candidate between two marks is a cycle lane. The weights were set by hand.
 double cycle_log_odds(const RoadCut& cut, const Candidate& candidate, const LaneConfig& config);
 
 }  // namespace laneloom::lanes
