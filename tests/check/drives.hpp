@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -17,7 +18,7 @@ inline Drive simulated_drive(const std::string& scenario, const std::string& noi
   const double duration_s = std::min(40.0, road.drive.duration_s());
   for (int i = 1; 0.1 * i < duration_s; ++i) {
     VehiclePose pose = road.drive.pose_at(0.1 * i);
-    pose.stamp_ns = i * 100'000'000;
+    pose.stamp_ns = i * std::int64_t{100'000'000};
     drive.poses.push_back(pose);
     drive.frames[""].push_back(perception.observe(pose));
   }

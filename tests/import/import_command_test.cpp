@@ -189,7 +189,7 @@ class ImportOwnTables : public ImportCommand {
                 results;
     for (int i = 1; 0.1 * i < duration_s; ++i) {
       VehiclePose pose = road.drive.pose_at(0.1 * i);
-      pose.stamp_ns = i * 100'000'000;
+      pose.stamp_ns = i * std::int64_t{100'000'000};
       const auto& at = pose.position;
       const auto& q = pose.orientation;
       poses += fmt::format("{},{},{},{},{},{},{},{}\n", pose.stamp_ns, q.w(), q.x(), q.y(), q.z(), at.x(),
