@@ -108,7 +108,7 @@ std::string text(const FileInfo& info) {
   return text;
 }
 
-nlohmann::json to_json(const FileInfo& info) {
+nlohmann::json as_json(const FileInfo& info) {
   nlohmann::json topics = nlohmann::json::object();
   for (std::size_t i = 0; i < kTopicNames.size(); ++i)
     if (const TopicInfo& topic = info.topics.at(i); topic.messages > 0)
@@ -132,7 +132,7 @@ void info(const InfoOptions& options) {
   if (options.configuration)
     fmt::print("{}", info.configuration);
   else if (options.json)
-    fmt::print("{}\n", io::json_text(to_json(info)));
+    fmt::print("{}\n", io::json_text(as_json(info)));
   else
     fmt::print("{}", text(info));
 }

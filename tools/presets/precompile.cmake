@@ -4,11 +4,14 @@ set(standard <algorithm> <array> <chrono> <cmath> <cstdint> <deque> <filesystem>
   <memory> <mutex> <numbers> <optional> <set> <span> <sstream> <stdexcept> <string> <string_view> <thread> <utility>
   <variant> <vector> <Eigen/Core> <Eigen/Geometry>)
 
-function(precompile name links)
+# With the options of a folder: g++ takes those of the precompiled headers for what includes them, too.
+function(precompile name folder links)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled/${name}.cpp CONTENT "")
   add_library(laneloom_precompiled_${name} OBJECT ${PROJECT_BINARY_DIR}/precompiled/${name}.cpp)
   target_link_libraries(laneloom_precompiled_${name} PRIVATE laneloom_types ${links})
   target_precompile_headers(laneloom_precompiled_${name} PRIVATE ${standard} ${ARGN})
+  get_property(options DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} PROPERTY COMPILE_OPTIONS)
+  set_target_properties(laneloom_precompiled_${name} PROPERTIES COMPILE_OPTIONS "${options}")
 endfunction()
 
 # Has all targets of a folder, and of the folders in it, use the precompiled headers, but those that use others, or that
@@ -29,25 +32,23 @@ function(use_precompiled name folder needs)
   endforeach()
 endfunction()
 
-# The code in these headers is optimised as the headers are compiled, whatever the options of the source that uses them.
-precompile(mapping "")
-get_property(options DIRECTORY ${PROJECT_SOURCE_DIR}/src/mapping PROPERTY COMPILE_OPTIONS)
-target_compile_options(laneloom_precompiled_mapping PRIVATE ${options})
+precompile(mapping src/mapping "")
 use_precompiled(mapping ${PROJECT_SOURCE_DIR}/src/mapping .)
-precompile(service "")
+precompile(service src "")
 use_precompiled(service ${PROJECT_SOURCE_DIR}/src .)
 if(LANELOOM_BUILD_PYTHON)
-  precompile(python "pybind11::module;fmt::fmt" <fmt/format.h> <pybind11/numpy.h> <pybind11/pybind11.h>)
+  precompile(python tools/python "pybind11::module;fmt::fmt" <fmt/format.h> <pybind11/numpy.h> <pybind11/pybind11.h>)
   # False alarms of g++ 12 within pybind11's headers.
   set_source_files_properties(${PROJECT_BINARY_DIR}/precompiled/python.cpp PROPERTIES COMPILE_OPTIONS -Wno-null-dereference)
   use_precompiled(python ${PROJECT_SOURCE_DIR}/tools/python .)
 endif()
 if(LANELOOM_BUILD_TOOLS)
-  precompile(tools nlohmann_json::nlohmann_json <nlohmann/json.hpp>)
+  precompile(tools tools nlohmann_json::nlohmann_json <nlohmann/json.hpp>)
+  use_precompiled(service ${PROJECT_SOURCE_DIR}/tools/evaluation .)
   use_precompiled(tools ${PROJECT_SOURCE_DIR}/tools .)
 endif()
 if(LANELOOM_BUILD_TESTS)
-  precompile(tests GTest::gmock <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
+  precompile(tests tests GTest::gmock <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
   use_precompiled(tests ${PROJECT_SOURCE_DIR}/tests GTest)
   use_precompiled(service ${PROJECT_SOURCE_DIR}/tests/fuzz .)
 endif()

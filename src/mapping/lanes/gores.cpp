@@ -7,11 +7,11 @@
 namespace laneloom::lanes {
 namespace {
 
-constexpr double kMeeting_m = 1.0;       // borders that are nearer at their end meet there
-constexpr double kGrowthFrom_m = 15.0;   // at the end; over it the growth of the width is measured
-constexpr double kMinEarlyGrowth = 0.4;  // share on its nearer half; with less, a lane opens there
-constexpr double kMaxAhead_m = 60.0;     // from the end to where borders that converge would meet
-constexpr double kMinEntry_m = 1.5;      // width; nobody turns across dashes into less
+constexpr double kMeeting_m = 1.0;           // borders that are nearer at their end meet there
+constexpr double kGrowthFrom_m = 15.0;       // at the end; over it the growth of the width is measured
+constexpr double kMinEarlyGrowth = 0.4;      // share on its nearer half; with less, a lane opens there
+constexpr double kFarthestMeeting_m = 60.0;  // from the end to where borders that converge would meet
+constexpr double kMinEntry_m = 1.5;          // width; nobody turns across dashes into less
 
 /// Whether the borders meet at the first of these places, or not far before it.
 template <class Iterator>
@@ -25,7 +25,7 @@ bool begins_at_meeting(Iterator begin, Iterator end) {
   const PlaceBetween& middle = *(begin + (beyond - begin) / 2);
   const double growth_m = last.width_m - first.width_m;
   if (middle.width_m - first.width_m < kMinEarlyGrowth * growth_m) return false;
-  return first.width_m * distance_m(last) < kMaxAhead_m * growth_m;
+  return first.width_m * distance_m(last) < kFarthestMeeting_m * growth_m;
 }
 
 /// The number of places from the first on that lie in a gore.

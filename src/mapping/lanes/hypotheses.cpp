@@ -23,11 +23,11 @@ constexpr std::size_t kTaperReach = 3;                  // cross-sections either
 constexpr double kBeyondEnd_m =
     10.0;                          // up to here before or behind a boundary, the vehicle counts as beside it
 constexpr double kAsDriven = 0.9;  // cosine between its heading and the boundary
-constexpr double kDrivenFrom = 0.2;           // of a lane's width, from its borders to the vehicle
-constexpr double kHere_m = 12.0;              // from a cross-section to the vehicle that drives there
-constexpr double kUnseen_m = 15.0;            // along the road, up to where a line goes on unseen
-constexpr double kBegin = 4.0;                // log odds that it takes for a lane to begin, or to end
-constexpr double kLeast = -4.0, kMost = 4.0;  // log odds that a single place can say
+constexpr double kDrivenFrom = 0.2;  // of a lane's width, from its borders to the vehicle
+constexpr double kHere_m = 12.0;     // from a cross-section to the vehicle that drives there
+constexpr double kUnseen_m = 15.0;   // along the road, up to where a line goes on unseen
+constexpr double kBegin = 4.0;       // log odds that it takes for a lane to begin, or to end
+constexpr double kLeastPlace = -4.0, kMostPlace = 4.0;  // log odds that a single place can say
 constexpr double kOuterOfTwo =
     -0.1;  // beyond that, among the surest: of two lines side by side, the inner one is the border
 
@@ -282,7 +282,7 @@ std::vector<Hypothesis> weighed(std::vector<Hypothesis> found, const RoadCuts& c
       candidate.parted = parted[one.first + i];
       candidate.taper = is_open(one.room) ? 0.0 : taper_at(places, i, step_m);
       const bool outer = !is_open(one.room) && is_parted(cut, candidate.left, 0.0);
-      one.log_odds.push_back(std::clamp(log_odds(cut, candidate, config), kLeast, kMost) +
+      one.log_odds.push_back(std::clamp(log_odds(cut, candidate, config), kLeastPlace, kMostPlace) +
                              (outer ? kOuterOfTwo : 0.0));
     }
     if (config.find_side_strips) weigh_strips(places, config, one);

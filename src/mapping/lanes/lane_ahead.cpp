@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMaxAhead_m = 20.0;
 constexpr double kMaxAside_m = 1.75, kMaxSlope = 0.15;  // of the begin, from the line straight ahead
-constexpr double kMinAlong = 0.9;                       // cosine between the vehicle's heading and the lane
+constexpr double kMinAligned = 0.9;                     // cosine between the vehicle's heading and the lane
 constexpr double kPerMetreAhead = 0.1;                  // by which a lane fits worse, in metres aside
 
 /// The end of a lane at which it is entered.
@@ -27,7 +27,7 @@ double misfit_m(const DirectedLane& lane, const Eigen::Isometry3d& T_map_body) {
   const double ahead_m = heading.dot(to_begin), aside_m = std::abs(cross(heading, to_begin));
   const bool is_ahead = ahead_m > 0.0 && ahead_m < kMaxAhead_m && geometry::may_drive_on(begin, vehicle);
   if (!is_ahead || aside_m > std::min(kMaxAside_m, 0.5 + kMaxSlope * ahead_m)) return kNone;
-  if (begin_direction(lane).dot(heading) < kMinAlong) return kNone;
+  if (begin_direction(lane).dot(heading) < kMinAligned) return kNone;
   return aside_m + kPerMetreAhead * ahead_m;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSameLane_m = 0.8;     // between centers; further aside lies another lane
 constexpr double kSameBorders_m = 0.3;  // by which a lane between the same boundaries is taken to be nearer
-constexpr double kMinAlong = 0.87;      // cosine between a lane and the same lane in another frame
+constexpr double kMinAgreement = 0.87;  // cosine between a lane and the same lane in another frame
 constexpr std::size_t kMinInARow = 3;   // stations that a strip shows
 constexpr double kCut_m = 2.0;          // from a fork to the end of a lane that was cut there
 
@@ -58,7 +58,7 @@ class Matching {
       const Projection foot = along.project(centers_[i], reach_m);
       if (!foot.inside || !geometry::same_level(foot.foot, centers_[i])) continue;
       const double cosine = direction(i).dot(strip.center.direction(foot));
-      if (std::abs(cosine) < kMinAlong) continue;
+      if (std::abs(cosine) < kMinAgreement) continue;
       if (foot.distance_m >= kSameLane_m) {
         matches_[i].is_taken = true;
         continue;

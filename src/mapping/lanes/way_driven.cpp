@@ -16,8 +16,8 @@ namespace {
 using Turn = Linkage::Turn;
 
 constexpr double kMaxAside_m = 1.75;  // of the path, from the end; of a lane's begin, from the path
-constexpr double kMaxAhead_m = 10.0;  // from the end to the begin of the path
-constexpr double kMinAlong = 0.9;     // cosine between the path and what it goes on with
+constexpr double kMaxGap_m = 10.0;    // from the end to the begin of the path
+constexpr double kMinOnward = 0.9;    // cosine between the path and what it goes on with
 constexpr double kLeastOn_m = 5.0;    // of what the path leads on
 constexpr double kStraight = 0.7071;  // cosine of the greatest angle of a way straight on, at its end
 constexpr double kEndChord_m = 5.0;   // over which the direction at the end of a path is measured
@@ -60,7 +60,7 @@ std::optional<Onward> onward(const Polyline& path, const Point& end, const Eigen
   const Projection foot = line.project(end);
   const Eigen::Vector2d gap = (foot.foot - end).head<2>();
   const double aside_m = std::abs(cross(ahead, gap)), ahead_m = ahead.dot(gap);
-  const bool begins_ahead = foot.arc_m == 0.0 && ahead_m > 0.0 && ahead_m < kMaxAhead_m;
+  const bool begins_ahead = foot.arc_m == 0.0 && ahead_m > 0.0 && ahead_m < kMaxGap_m;
   if (aside_m > kMaxAside_m || !(foot.inside || begins_ahead) || !geometry::same_level(foot.foot, end) ||
       line.direction(foot).dot(ahead) < min_along || line.length() - foot.arc_m < kLeastOn_m)
     return std::nullopt;
@@ -83,7 +83,7 @@ Entered first_entered(const LaneGraph& graph, const MeasuredPolyline& path) {
       const Projection foot = path.project(begin, kMaxAside_m);
       if (!foot.inside || foot.distance_m > kMaxAside_m || foot.arc_m >= first.arc_m) continue;
       if (foot.arc_m < kLeastOn_m || !geometry::same_level(foot.foot, begin)) continue;
-      if (path.direction(foot).dot(begin_direction(directed)) < kMinAlong) continue;
+      if (path.direction(foot).dot(begin_direction(directed)) < kMinOnward) continue;
       first = {directed, foot.arc_m};
     }
   return first;
@@ -109,7 +109,7 @@ PathAhead driven_on(const LaneGraph& graph, const Point& end, const Eigen::Vecto
   std::optional<Onward> nearest;
   double lateral_stddev_m = 0.0;
   for (const DrivenPath& driven : graph.map().driven_paths) {
-    auto found = onward(driven.points, end, ahead, kMinAlong);
+    auto found = onward(driven.points, end, ahead, kMinOnward);
     if (!found || turn_along(found->path, ahead) != turn) continue;
     if (turn == Turn::straight && !begins_straight(found->path, end, ahead)) continue;
     if (nearest && found->aside_m >= nearest->aside_m) continue;
