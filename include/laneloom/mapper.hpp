@@ -15,7 +15,7 @@
 
 namespace laneloom {
 
-struct MapperState;
+struct MapperState;  // private: of laneloom's own sessions
 
 /// Fuses detections over time into the local lane map (paper, Sec. III).
 ///
@@ -81,11 +81,9 @@ class Mapper {
   /// or of another method; the mapper is unchanged then.
   void load(const std::string& bytes);
 
-  /// The whole state as a value, for laneloom's own sessions. The type is complete in src/mapping/state.hpp.
-  const MapperState& state() const;
-  void set_state(MapperState state);  ///< goes on from a value of state()
-
  private:
+  friend struct MapperState;
+
   Eigen::Isometry3d follow_poses(const DetectionFrame& frame, const Eigen::Isometry3d& T_map_body);
 
   MapperConfig config_;

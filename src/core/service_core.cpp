@@ -209,7 +209,7 @@ std::optional<snapshot::Snapshot> ServiceCore::snapshot_if_due(std::int64_t now_
   const auto checkpoint = session_.checkpoint();
   if (config_.service.snapshot_file.empty() || !checkpoint || now_ns < next_snapshot_ns_) return std::nullopt;
   next_snapshot_ns_ = now_ns + nanoseconds(config_.service.snapshot_period_s);
-  return snapshot::Snapshot{snapshot_stamp(), map_id_, *checkpoint, session_.mapper().state()};
+  return snapshot::Snapshot{snapshot_stamp(), map_id_, *checkpoint, session_.mapper_state()};
 }
 
 std::string ServiceCore::summary() const {

@@ -312,8 +312,4 @@ std::string Mapper::save() const { return to_bytes(*state_); }
 
 void Mapper::load(const std::string& bytes) { *state_ = from_bytes(bytes, config_); }
 
-const MapperState& Mapper::state() const { return *state_; }
-
-void Mapper::set_state(MapperState state) { *state_ = std::move(state); }
-
 }  // namespace laneloom

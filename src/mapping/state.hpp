@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "laneloom/config.hpp"
+#include "laneloom/mapper.hpp"
 #include "laneloom/types.hpp"
 #include "mapping/lanes/inferred_memory.hpp"
 #include "mapping/lanes/known_lines.hpp"
@@ -65,6 +66,11 @@ class Fusion {  // NOLINT(bugprone-exception-escape)
 /// The whole knowledge of a mapper. It is a value without pointers, which can be copied, saved and loaded.
 struct MapperState {  // NOLINT(bugprone-exception-escape)
   explicit MapperState(const MapperConfig& config) : fusion(config) {}
+
+  /// The state of a mapper, as a value that a session copies.
+  static const MapperState& of(const Mapper& mapper) { return *mapper.state_; }
+  /// Has a mapper go on from a state.
+  static void give(MapperState state, Mapper& mapper) { *mapper.state_ = std::move(state); }
 
   std::uint64_t frame = 0;  ///< number of fused frames
   Fusion fusion;

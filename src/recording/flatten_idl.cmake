@@ -1,7 +1,7 @@
 # Writes OUT, a C++ source with the IDL of each of TOPICS (in IDL_DIR) as one text, in which every included file
 # stands once, before what includes it, and nothing is left for a preprocessor.
 #   cmake -D IDL_DIR=… -D OUT=… -D TOPICS=A,B -P flatten_idl.cmake
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 
 function(flatten file)
   if(file IN_LIST done)

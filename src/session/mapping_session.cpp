@@ -296,7 +296,7 @@ std::optional<MappingSession::Checkpoint> MappingSession::checkpoint() const {
 
 void MappingSession::resume(const Checkpoint& checkpoint, MapperState state) {
   state.ids.leave_out_unknown();
-  state_->mapper.set_state(std::move(state));
+  MapperState::give(std::move(state), state_->mapper);
   state_->newest_stamp_ns = checkpoint.frame_stamp_ns;
   state_->newest_arrival_ns = checkpoint.frame_arrival_ns;
   state_->resumed = checkpoint;
@@ -305,6 +305,7 @@ void MappingSession::resume(const Checkpoint& checkpoint, MapperState state) {
 const LocalMap& MappingSession::map() const { return state_->mapper.map(); }
 Mapper& MappingSession::mapper() { return state_->mapper; }
 const Mapper& MappingSession::mapper() const { return state_->mapper; }
+const MapperState& MappingSession::mapper_state() const { return MapperState::of(state_->mapper); }
 std::size_t MappingSession::pending() const { return state_->synchroniser.pending(); }
 std::size_t MappingSession::ready() const { return state_->synchroniser.ready(); }
 std::optional<std::int64_t> MappingSession::newest_arrival_ns() const { return state_->newest_arrival_ns; }

@@ -94,6 +94,8 @@ class MappingSession {
   /// Goes on from a checkpoint, with the state that the mapper had there. If the first pose can not follow
   /// the checkpoint's pose, the map is cleared.
   void resume(const Checkpoint& checkpoint, MapperState state);
+  /// The state of the mapper, which goes with the checkpoint.
+  const MapperState& mapper_state() const;
 
   const LocalMap& map() const;
   Mapper& mapper();

@@ -144,7 +144,7 @@ TEST_P(EitherMapper, WhatLeavesTheRangeGoes) {
   const LocalMap& map = drive.step({});
   EXPECT_TRUE(map.boundaries.empty());
   EXPECT_TRUE(map.markings.empty());
-  const Fusion& fusion = drive.mapper.state().fusion;
+  const Fusion& fusion = MapperState::of(drive.mapper).fusion;
   EXPECT_TRUE(fusion.lines() == nullptr || fusion.lines()->lines().empty());
   EXPECT_TRUE(fusion.voxels() == nullptr || fusion.voxels()->map().voxels.living() == 0U);
   EXPECT_EQ(map.lineage.size(), published);  // all retired
@@ -417,7 +417,7 @@ TEST(LineMapper, StandingIsTheSameToTheLastBitAfterALoad) {
 TEST_P(EitherMapper, MemoryIsFlatOverALongDriveAndALongStand) {
   Drive drive(GetParam());
   drive.steps(100);
-  const voxels::VoxelMapper* voxels = drive.mapper.state().fusion.voxels();
+  const voxels::VoxelMapper* voxels = MapperState::of(drive.mapper).fusion.voxels();
   const auto slots_now = [&] { return voxels != nullptr ? voxels->map().voxels.slots() : 0; };
   const voxels::VoxelId slots = slots_now();
   const std::size_t bytes = drive.mapper.save().size();

@@ -327,7 +327,7 @@ TEST_F(MappingSessionTest, AnotherSessionGoesOnWhereOneEnded) {
   drive(10'000, 12'000);
   ASSERT_TRUE(session_.checkpoint());
   MappingSession next{Config{}};
-  next.resume(*session_.checkpoint(), session_.mapper().state());
+  next.resume(*session_.checkpoint(), session_.mapper_state());
   EXPECT_EQ(next.map().lanes.size(), 1U);
   EXPECT_EQ(next.newest_arrival_ns(), session_.newest_arrival_ns());
   EXPECT_FALSE(next.checkpoint()) << "a map that was only resumed would be kept for ever";
@@ -342,7 +342,7 @@ TEST_F(MappingSessionTest, AnotherSessionGoesOnWhereOneEnded) {
 TEST_F(MappingSessionTest, IdsThatWereGivenOutAfterTheCheckpointDoNotComeAgain) {
   drive(10'000, 12'000);
   const auto checkpoint = *session_.checkpoint();
-  const MapperState state = session_.mapper().state();
+  const MapperState state = session_.mapper_state();
   const auto with_line_at = [](std::int64_t t, double y) {
     DetectionFrame more = frame(t);
     more.detections.push_back(Detection{.confidence = 0.9, .points = {{0.0, y, 0.0}, {25.0, y, 0.0}}});
@@ -374,7 +374,7 @@ TEST_F(MappingSessionTest, AMapOfAnotherPoseFrameIsNotGoneOnWith) {
   turned.orientation = Eigen::Quaterniond(0.0, 0.0, 0.0, 1.0);
   for (const auto& first : {pose(12'500, 2), pose(11'000), far, late, turned}) {
     MappingSession next{Config{}};
-    next.resume(checkpoint, session_.mapper().state());
+    next.resume(checkpoint, session_.mapper_state());
     next.add(first);
     EXPECT_TRUE(next.map().lanes.empty());
     EXPECT_EQ(next.counters()["map_resets"], 1U);
@@ -429,7 +429,7 @@ TEST(Objects, InTheMapFrameLeaveTheSameTrails) {
       session.add(std::move(cars));
       session.add(frame(t), 0);
     }
-    return session.mapper().state().trails.all().at(0).points;
+    return session.mapper_state().trails.all().at(0).points;
   };
   const Polyline wanted = trail_of(false), found = trail_of(true);
   ASSERT_GT(wanted.size(), 10U);

@@ -1,6 +1,6 @@
 # Writes OUT, a C++ source with the FILES (of PAGE_DIR) as texts.
 #   cmake -D PAGE_DIR=… -D OUT=… -D FILES=index.html,main.js -P embed.cmake
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 
 set(entries "")
 string(REPLACE "," ";" files "${FILES}")

@@ -130,7 +130,7 @@ TEST(LineMapper, WhatIsOfLowConfidenceIsDroppedUnlessItsNetworkIsUnsure) {
     drive(0, 60);
     detections.back().confidence = doubtful;
     drive(60, 61);
-    const lines::LineMapper* const fused = mapper.state().fusion.lines();
+    const lines::LineMapper* const fused = MapperState::of(mapper).fusion.lines();
     return fused != nullptr ? fused->lines().size() : 0;
   };
   EXPECT_EQ(lines_with_doubt(0.9, 0.32, true), 5U);
