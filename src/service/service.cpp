@@ -16,7 +16,7 @@ namespace laneloom::service {
 namespace {
 
 constexpr double kStatisticsWindow_s = 10.0;
-constexpr double kDeafAfter_s = 3.0;
+constexpr double kAskEvery_s = 0.5, kDeafAfter_s = 3.0;
 
 std::size_t ticks_within(double window_s, double rate_hz) {
   return static_cast<std::size_t>(std::ceil(window_s * rate_hz));
@@ -77,7 +77,7 @@ void Service::tick(const core::Tick& tick) {
   if (another) queue_.note_other_service(tick.start_ns);
   core::Messages messages = core_.tick(tick, take_arrivals());
   publish(messages.map, messages.road_markings);
-  ask_itself();
+  ask_itself(tick.start_ns);
   if (messages.snapshot) snapshots_->write(std::move(*messages.snapshot));
   work_.add(milliseconds(now_ns_() - tick.start_ns));
   delay_.add(milliseconds(tick.start_ns - tick.deadline_ns));
@@ -89,13 +89,15 @@ void Service::tick(const core::Tick& tick) {
   incidents_.note(*messages.status, tick.start_ns);
 }
 
-void Service::ask_itself() {
+void Service::ask_itself(std::int64_t tick_ns) {
+  if (tick_ns < next_question_ns_) return;
+  next_question_ns_ = tick_ns + static_cast<std::int64_t>(kAskEvery_s * 1e9);
   const dds::SelfCheck before = std::exchange(itself_, endpoints_->ask_itself());
   if (itself_.address_gone && !before.address_gone)
     spdlog::error("event=address_gone why=\"this host no longer has an address that DDS listens on\"");
 }
 
-bool Service::is_deaf() const { return itself_.unanswered > kDeafAfter_s * config_.service.tick_rate_hz; }
+bool Service::is_deaf() const { return itself_.unanswered > kDeafAfter_s / kAskEvery_s; }
 
 core::Arrivals Service::take_arrivals() {
   core::Arrivals arrivals = queue_.take();

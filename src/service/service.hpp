@@ -37,7 +37,7 @@ class Service {
   /// because DDS refuses, nothing else may be called.
   void reopen();
 
-  /// Whether DDS has taken nothing of what it received for some seconds of ticks: nobody can be matched any
+  /// Whether DDS has taken nothing of what it received for some seconds: nobody can be matched any
   /// more.
   bool is_deaf() const;
 
@@ -49,7 +49,7 @@ class Service {
   void resume();
   /// The arrivals through DDS, with the counters of this class added.
   core::Arrivals take_arrivals();
-  void ask_itself();
+  void ask_itself(std::int64_t tick_ns);
   void publish(const PublishedMap& map, const RoadMarkings& markings);
   void publish(const ServiceStatus& status);
   void log_tick(const core::Tick& tick, const core::Messages& messages) const;
@@ -64,7 +64,8 @@ class Service {
   TimeWindow delay_;
   Counters counters_;  ///< of events in this class
   IncidentLog incidents_;
-  dds::SelfCheck itself_;                                ///< of the newest tick
+  dds::SelfCheck itself_;  ///< of the newest question
+  std::int64_t next_question_ns_ = 0;
   std::unique_ptr<snapshot::SnapshotWriter> snapshots_;  ///< null: no snapshots are kept
   std::unique_ptr<Endpoints> endpoints_;  ///< last, so that no callback meets a destroyed member
 };
