@@ -54,9 +54,8 @@ void append_changes(const ArchivedLine& line, bool gone, IsChanged is_changed, s
 
 }  // namespace
 
-void LineArchive::measure(std::size_t k) {
-  lines_[k].measure();
-  for (const ArchivedVertex& vertex : lines_[k].vertices) tiles_.add(k, vertex.position);
+void LineArchive::add_to_tiles(std::size_t k, const Vertices& vertices) {
+  for (const ArchivedVertex& vertex : vertices) tiles_.add(k, vertex.position);
 }
 
 std::vector<LineArchive::Match> LineArchive::match(const ArchivedPiece& piece,
@@ -96,6 +95,7 @@ void LineArchive::fuse(const Vertices& piece, std::size_t k) {
       continue;
     const ArchivedVertex& seen = piece[std::min(foot.segment, piece.size() - 1)];
     vertex.position += seen.weight / (seen.weight + vertex.weight) * (foot.foot - vertex.position);
+    tiles_.add(k, vertex.position);
     vertex.source = seen.source;
     vertex.maps += seen.maps;
     vertex.beside += seen.beside;
@@ -107,7 +107,7 @@ void LineArchive::fuse(const Vertices& piece, std::size_t k) {
       vertex.styles[style] += seen.styles[style];
     vertex.votes.see(drive_);
   }
-  measure(k);
+  lines_[k].measure();
 }
 
 bool LineArchive::extend(const Match& beside, const Vertices& beyond) {
@@ -124,7 +124,8 @@ bool LineArchive::extend(const Match& beside, const Vertices& beyond) {
   if (added.empty()) return true;
   line.vertices.insert(at_back ? line.vertices.end() : line.vertices.begin(), added.begin(), added.end());
   if (!at_back) std::reverse(line.vertices.begin(), line.vertices.begin() + std::ssize(added));
-  measure(beside.line);
+  add_to_tiles(beside.line, added);
+  line.measure();
   return true;
 }
 
@@ -152,7 +153,8 @@ void LineArchive::add_unmatched(const ArchivedPiece& piece, const Vertices& vert
       line.type = piece.marking.type;
       line.vertices = std::move(run);
       credit(piece, line);
-      measure(lines_.size() - 1);
+      add_to_tiles(lines_.size() - 1, line.vertices);
+      line.measure();
     }
   }
 }

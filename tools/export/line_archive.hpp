@@ -64,7 +64,7 @@ class LineArchive {
   using Vertices = std::vector<ArchivedVertex>;
 
   static constexpr std::size_t kNoLine = static_cast<std::size_t>(-1);
-  void measure(std::size_t line);
+  void add_to_tiles(std::size_t line, const Vertices& vertices);
   std::size_t lines_at(const ArchivedVertex& vertex, const ArchivedLine& of, double longer_than_m) const;
   bool is_covered(const ArchivedVertex& vertex, const ArchivedLine& of) const;
   std::vector<bool> kept_vertices(const ArchivedLine& line) const;
