@@ -72,6 +72,25 @@ TEST(Weave, AnEdgeIsContinuedWhereItWasNotSeen) {
   }
 }
 
+TEST(Weave, TheOwnDriveCountsOnlyIfItIsEvidence) {
+  const auto beside = [](double y) { return [y](double) { return y; }; };
+  const SurveyedRoad surveyed =
+      drive(-1.75, {line(1, MarkingType::laneline, along_x(0.0, 60.0, beside(0.0))),
+                    line(2, MarkingType::laneline, along_x(0.0, 60.0, beside(-3.5)))});
+  for (const bool counts : {true, false}) {
+    MapperConfig config;
+    config.evidence.ego_path = counts;
+    const LocalMap map = weave(surveyed, config);
+    ASSERT_FALSE(map.lanes.empty());
+    EXPECT_EQ(std::ranges::any_of(map.lanes,
+                                  [](const Lane& lane) {
+                                    return overlap(lane.evidence | lane.direction_evidence,
+                                                   Evidence::ego_path);
+                                  }),
+              counts);
+  }
+}
+
 TEST(Weave, ShouldersRunAsTheLanesBesideThem) {
   const auto line_at = [](ElementId id, MarkingType type, double y, MarkingStyle style) {
     Marking marking = line(id, type, along_x(0.0, 60.0, [y](double) { return y; }));

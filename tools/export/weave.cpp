@@ -41,11 +41,12 @@ boundaries::Boundaries boundaries_of(const SurveyedRoad& surveyed, BoundaryConfi
 void link(const SurveyedRoad& surveyed, const MapperConfig& config, lanes::LaneTracks& tracks,
           topology::RoadGraph& road) {
   for (const Eigen::Isometry3d& pose : surveyed.poses) {
-    topology::observe_drive(road.lanes, pose, tracks);
+    if (config.evidence.ego_path) topology::observe_drive(road.lanes, pose, tracks);
     topology::observe_stoplines(road.lanes, surveyed.markings, config.stopline, tracks);
   }
   find_directions(config.direction, {side_by_side(road), {}}, tracks, road);
   link_across_intersections(SdMap{}, config.linkage, road);
+  if (!config.evidence.ego_path) return;
   topology::EgoTrack track;
   Point before = surveyed.poses.front().translation();
   for (const Eigen::Isometry3d& pose : surveyed.poses) {
@@ -69,8 +70,9 @@ LocalMap weave(const SurveyedRoad& surveyed, const MapperConfig& config) {
       inferred.recognise(lanes::continued_edges(boundaries, scene.box, config.lane), scene, ids));
   boundaries::SectionGraph sections =
       road_sections(std::move(boundaries), scene.T_map_body(), config.section);
-  lanes::FoundLanes found =
-      lanes::find_lanes(std::move(sections), scene.box, {surveyed.poses, {}}, {}, config.lane);
+  lanes::Driven driven;
+  if (config.evidence.ego_path) driven.poses = surveyed.poses;
+  lanes::FoundLanes found = lanes::find_lanes(std::move(sections), scene.box, driven, {}, config.lane);
   if (!config.lane.publish_side_strips) found.side_strips.clear();
   lanes::LaneLayout layout = tracks.adopt(inferred.recognise(std::move(found), scene, config.lane, ids), ids);
   topology::RoadGraph road = topology::link_lanes(std::move(layout), config.linkage);
