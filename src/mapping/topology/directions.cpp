@@ -145,11 +145,12 @@ void observe_drive(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_ma
       std::ranges::find_if(senses, [](double sense) { return sense != 0.0; }) - senses.begin());
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const Lane& lane = lanes[i];
-    lanes::LaneTrack* remembered = tracks.find(lane.id);
+    const double sense = senses[i];
+    const bool is_beside = driven < lanes.size() && lanes::are_neighbours(lanes[driven], lane);
+    lanes::LaneTrack* remembered = sense != 0.0 || is_beside ? tracks.find(lane.id) : nullptr;
     if (remembered == nullptr) continue;
     double& log_odds = remembered->direction_log_odds;
-    if (driven < lanes.size() && lanes::are_neighbours(lanes[driven], lane)) log_odds *= kMemory;
-    const double sense = senses[i];
+    if (is_beside) log_odds *= kMemory;
     remembered->driven = remembered->driven || sense != 0.0;
     if (sense != 0.0 && !may_drive_beyond(lane, T_map_body))
       log_odds = limited(log_odds + kEgoEvidence * sense);
@@ -159,10 +160,11 @@ void observe_drive(const std::vector<Lane>& lanes, const Eigen::Isometry3d& T_ma
 void observe_stoplines(const std::vector<Lane>& lanes, const std::vector<Marking>& markings,
                        const StoplineConfig& config, lanes::LaneTracks& tracks) {
   for (const Lane& lane : lanes) {
-    lanes::LaneTrack* remembered = tracks.find(lane.id);
+    const double sense = stopline_sense(lane, markings, config);
+    lanes::LaneTrack* remembered = sense != 0.0 ? tracks.find(lane.id) : nullptr;
     if (remembered == nullptr) continue;
     double& log_odds = remembered->direction_log_odds;
-    log_odds = limited(log_odds + kStoplineEvidence * stopline_sense(lane, markings, config));
+    log_odds = limited(log_odds + kStoplineEvidence * sense);
   }
 }
 
