@@ -20,8 +20,6 @@ constexpr double kSourceRemembered_s = 10.0;  // a source that is silent for lon
 constexpr double kSourcePeriods = 2.5;        // a source may miss one of its frames
 constexpr double kFusionShare = 0.5;  // share of a tick's period, after which no further frame is begun
 
-std::int64_t nanoseconds(double duration_s) { return static_cast<std::int64_t>(duration_s * 1e9); }
-
 /// Names the version and all of a configuration that maps depend on, with the files that it names. Two
 /// services with the same name make the same maps of the same messages.
 std::string maker_of_maps(Config config) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "base/seconds.hpp"
 #include "laneloom/counters.hpp"
 #include "laneloom/messages.hpp"
 
@@ -11,7 +12,7 @@ namespace laneloom::service {
 /// message of others can flood the log.
 class IncidentLog {
  public:
-  explicit IncidentLog(double period_s) : period_ns_(static_cast<std::int64_t>(period_s * 1e9)) {}
+  explicit IncidentLog(double period_s) : period_ns_(nanoseconds(period_s)) {}
 
   void note(const ServiceStatus& status, std::int64_t now_ns);
 

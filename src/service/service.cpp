@@ -9,6 +9,7 @@
 
 #include "base/clock.hpp"
 #include "base/random_id.hpp"
+#include "base/seconds.hpp"
 #include "laneloom/error.hpp"
 #include "laneloom/state_names.hpp"
 
@@ -91,7 +92,7 @@ void Service::tick(const core::Tick& tick) {
 
 void Service::ask_itself(std::int64_t tick_ns) {
   if (tick_ns < next_question_ns_) return;
-  next_question_ns_ = tick_ns + static_cast<std::int64_t>(kAskEvery_s * 1e9);
+  next_question_ns_ = tick_ns + nanoseconds(kAskEvery_s);
   const dds::SelfCheck before = std::exchange(itself_, endpoints_->ask_itself());
   if (itself_.address_gone && !before.address_gone)
     spdlog::error("event=address_gone why=\"this host no longer has an address that DDS listens on\"");

@@ -37,8 +37,7 @@ class Service {
   /// because DDS refuses, nothing else may be called.
   void reopen();
 
-  /// Whether DDS has taken nothing of what it received for some seconds: nobody can be matched any
-  /// more.
+  /// Whether DDS has taken nothing of what it received for some seconds: nobody can be matched any more.
   bool is_deaf() const;
 
   /// State and numbers in one line, for people.

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/seconds.hpp"
 #include "laneloom/config.hpp"
 
 namespace laneloom::session {
@@ -19,7 +20,7 @@ class PendingMessages {
  public:
   explicit PendingMessages(const Config& config)
       : capacity_(static_cast<std::size_t>(config.sync.queue_capacity)),
-        max_lead_ns_(static_cast<std::int64_t>(config.gate.max_stamp_step_s * 1e9)) {}
+        max_lead_ns_(nanoseconds(config.gate.max_stamp_step_s)) {}
 
   /// Keeps a message that has no defect(). `newest_pose_ns` is the stamp of the newest pose, if there is one.
   /// Returns the reason to refuse the message, as a stable name. Empty: it is kept.

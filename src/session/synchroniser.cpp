@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/seconds.hpp"
+
 namespace laneloom::session {
 
 std::optional<SynchronisedFrame> Synchroniser::next(std::size_t& refused) {
@@ -28,7 +30,7 @@ std::size_t Synchroniser::ready() const {
 }
 
 std::size_t Synchroniser::expire(std::int64_t now_ns) {
-  const auto max_wait_ns = static_cast<std::int64_t>(config_.max_wait_s * 1e9);
+  const auto max_wait_ns = nanoseconds(config_.max_wait_s);
   Eigen::Isometry3d unused;
   return std::erase_if(pending_, [&](const auto& entry) {
     return now_ns - entry.second.arrival_ns > max_wait_ns &&

@@ -17,7 +17,7 @@ constexpr double kClosed_m = 0.01;
 constexpr double kClosed_rad = 0.01;
 
 double seconds(std::int64_t stamp_ns) { return static_cast<double>(stamp_ns) * 1e-9; }
-std::int64_t nanoseconds(double t_s) { return static_cast<std::int64_t>(std::llround(t_s * 1e9)); }
+std::int64_t nearest_ns(double t_s) { return static_cast<std::int64_t>(std::llround(t_s * 1e9)); }
 
 bool returns_to_start(const Polyline& path) { return (path.front() - path.back()).norm() < kClosed_m; }
 
@@ -62,7 +62,7 @@ Drive Drive::along(const Polyline& path, double speed_mps) {
     if (i > 0) travelled_m += (points[i] - points[i - 1]).norm();
     const Point& before = i > 0 ? points[i - 1] : points[ring ? last - 1 : 0];
     const Point& after = i < last ? points[i + 1] : points[ring ? 1 : last];
-    drive.poses_.push_back({.stamp_ns = nanoseconds(travelled_m / speed_mps),
+    drive.poses_.push_back({.stamp_ns = nearest_ns(travelled_m / speed_mps),
                             .position = points[i],
                             .orientation = heading_along(after - before)});
   }
@@ -93,7 +93,7 @@ bool Drive::closed() const {
 VehiclePose Drive::pose_at(double t_s) const {
   const double duration = duration_s();
   const double lap_s = closed() ? t_s - duration * std::floor(t_s / duration) : t_s;
-  const std::int64_t at_ns = nanoseconds(std::clamp(lap_s, 0.0, duration));
+  const std::int64_t at_ns = nearest_ns(std::clamp(lap_s, 0.0, duration));
   const auto later = std::upper_bound(poses_.begin(), poses_.end(), at_ns,
                                       [](std::int64_t t, const VehiclePose& p) { return t < p.stamp_ns; });
   VehiclePose pose = later == poses_.end() ? poses_.back() : *later;
@@ -104,7 +104,7 @@ VehiclePose Drive::pose_at(double t_s) const {
     pose.position = earlier.position + share * (later->position - earlier.position);
     pose.orientation = earlier.orientation.slerp(share, later->orientation);
   }
-  pose.stamp_ns = nanoseconds(t_s);
+  pose.stamp_ns = nearest_ns(t_s);
   return pose;
 }
 
