@@ -44,7 +44,7 @@ if(LANELOOM_BUILD_PYTHON)
 endif()
 if(LANELOOM_BUILD_TOOLS)
   precompile(tools tools nlohmann_json::nlohmann_json <nlohmann/json.hpp>)
-  use_precompiled(service ${PROJECT_SOURCE_DIR}/tools/evaluation .)
+  use_precompiled(service ${PROJECT_SOURCE_DIR}/tools/evaluation .)  # optimised as src
   use_precompiled(tools ${PROJECT_SOURCE_DIR}/tools .)
 endif()
 if(LANELOOM_BUILD_TESTS)
